@@ -31,6 +31,9 @@ _SETTLED = 2e-3
 """Change of every need, as a share, at which closed forms and equilibrium agree."""
 _FAR = 1.1
 """Objective over a rival's beyond which no further needs make a design win."""
+_HOPELESS = 0.4
+"""Reserve of what closed forms take for the strongest, by the equilibrium, below which nothing near
+it is strong enough: where something was, it was 0.47 at least."""
 RING, _PINS = "CONTACT-RING-PEAK", "CONTACT-PIN-PEAK"
 
 
@@ -111,8 +114,10 @@ def strongest(hunt: Hunt, space: Space, needs: Mapping[str, float]) -> Strongest
 def _strongest(hunt: Hunt, space: Space, needs: Mapping[str, float]) -> Strongest | None:
     search = Search.of(hunt.frame(space, needs), hunt.tables)
     point = search.most_reserve()
-    if point is None:
-        return None
+    return None if point is None else _held_against(hunt, search, point)
+
+
+def _held_against(hunt: Hunt, search: Search, point: Points) -> Strongest | None:
     try:
         machine, checks = hunt.held_against(
             resolve(design_of(search.evaluator, point, 0), search.frame.motor)
@@ -176,6 +181,10 @@ def settled(
     strongest = near is None or beside
     if most is None:
         return None, False
+    if near is None:
+        strong = _held_against(hunt, search, most)
+        if strong is not None and strong.reserve(hunt) < _HOPELESS:
+            return None, False
     needs: dict[str, float] = dict(known or {})
     begin, best = search.beginning(most), None
     seen: list[Machine] = []

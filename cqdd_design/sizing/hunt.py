@@ -48,6 +48,9 @@ DISC_COUNTS = (2, 3)
 """Likewise of discs: those that balance."""
 _LIKELY, _HOPED = 0.95, 0.86
 """Of a reserve that part errors ask for with other cam bearings: they differ by so much."""
+_MANY = 3
+"""Cam bearings that have been looked at from which another is not hoped to need less than they: they
+differ by little, and each that is hoped for has to be looked at."""
 _USUAL = {
     "CONTACT-RING-CONTINUOUS": 2.0,
     "CONTACT-RING-PEAK": 1.15,
@@ -198,6 +201,11 @@ class Hunt:
     trusting : bool
         Whether designs with cam bearings that have not been looked at need much less, and nothing
         where none has been.
+    any_will_do : bool
+        Whether the first design whose verdict is yes is enough, the best or not.
+    short_of : tuple of Check
+        Lines of the shaft and its bearings that the best of all designs was far from meeting, where
+        that was why there is none.
     settling : bool
         Whether cam bearings that have been looked at are tried alone, if with any of them there is
         a design.
@@ -249,6 +257,9 @@ class Hunt:
         Whether rings of nearly the same size are tried too.
     too_weak : dict
         Peak torque, N m, beyond which shafts are hopeless, by disc count and cam bearing's bore.
+    ends_bear : dict
+        Peak torque, N m, that bearings at the shaft's ends bear, where that is far too little, by
+        disc count, kind of cam bearing and its bore.
     """
 
     requirements: Requirements
@@ -260,6 +271,8 @@ class Hunt:
     usual: Mapping[str, float] = field(default_factory=lambda: _USUAL)
     extra_of: dict[str, dict[str, float]] = field(default_factory=dict)
     trusting: bool = False
+    any_will_do: bool = False
+    short_of: tuple[Check, ...] = ()
     settling: bool = False
     borne: tuple[float, float] | None = None
     lowered: bool = False
@@ -283,6 +296,7 @@ class Hunt:
     answered: dict[Space, Answer] = field(default_factory=dict)
     fine: bool = False
     too_weak: dict[tuple[int, float], float] = field(default_factory=dict)
+    ends_bear: dict[tuple[int, str, float], float] = field(default_factory=dict)
 
     def held_against(self, machine: Machine) -> tuple[Machine, tuple[Check, ...]]:
         """The machine of its design that is known, and its load lines by the equilibrium.
@@ -324,16 +338,19 @@ class Hunt:
 
         With one that has not been looked at, somewhat less than what the known one asks for whose
         rating is closest, and where none is named, than what every one does; where the hunt is
-        trusting, still less. Where none is known, what is usual.
+        trusting, still less. Where none is known, what is usual; where many are, as much as any.
         """
         own = self.extra_of.get(cam)
         if own is None and not self.extra_of:
             own = {} if self.trusting else dict(self.usual)
         elif own is None:
             part = _HOPED if self.trusting else _LIKELY
-            known = [self._closest(cam)] if cam else list(self.extra_of)
+            many = len(self.extra_of) >= _MANY and not self.trusting
+            known = [self._closest(cam)] if cam and not many else list(self.extra_of)
             every = [self.extra_of[one] for one in known]
             shared = set.intersection(*map(set, every))
+            if cam and many:
+                return {one: max(each[one] for each in every) for one in shared}
             own = {one: max(part * min(each[one] for each in every), 1.0) for one in shared}
         return own
 

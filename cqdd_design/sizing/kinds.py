@@ -18,7 +18,7 @@ from cqdd_design.sizing.agreement import settled, tightest
 from cqdd_design.sizing.choose import by_bearing
 from cqdd_design.sizing.hunt import CAM, FITS, Answer, Found, Hunt, Space, spaces
 from cqdd_design.sizing.search import Search
-from cqdd_design.sizing.shafts import THICKNESS, weak_lines
+from cqdd_design.sizing.shafts import ENDS, THICKNESS, weak_lines
 
 _SLACK = 1.08
 """A screen's objective over the best so far beyond which a bearing cannot win: screens are
@@ -45,6 +45,11 @@ _NOT_FAR, _WIDER, _LESS_THROW, _SPARE = 0.4, (1.01, 1.02, 1.04), (0.97, 0.9), 1.
 wider and less, and how much less load on the cam bearing than the margin says."""
 _HOPELESS = 0.85
 """Margin of a shaft below which thinner ones are too weak as well."""
+_NO_HOPE = 6
+"""Cam bearings that have been looked at after which none is hoped to need far less than they."""
+_FAR_SHORT, _ALIKE = 0.7, 1.15
+"""Margin of bearings at a shaft's ends below which wider rings and less eccentricity hardly help,
+nor cam bearings of the same kind whose bores are wider or narrower by less than a factor."""
 
 
 @dataclass
@@ -56,20 +61,25 @@ class _Kind:
     space : Space
     bore : float
         Of the bearing, m.
+    family : str
+        Whether it is a ball bearing, a needle bearing, or a cage.
     objective : float
         As far as is known.
     """
 
     space: Space
     bore: float
+    family: str
     objective: float
 
 
 def lightest(hunt: Hunt) -> Found | None:
     """The best design of all spaces, cam bearings and rings at the hunt's fit; see `ranked`.
 
-    One whose shaft is too weak where there is no other.
+    One whose shaft is too weak where there is no other. Where any will do, `promising`.
     """
+    if hunt.any_will_do:
+        return promising(hunt)
     if hunt.settling:
         known = next(iter(ranked(hunt)), None)
         if known is not None and not known.worth[0]:
@@ -82,8 +92,10 @@ def _hoped_for(hunt: Hunt) -> Found | None:
     """The best design with a cam bearing that has not been looked at.
 
     What part errors ask for with others, or usually, may be too much for it: it is asked for less,
-    and has to be looked at.
+    and has to be looked at. Where many have been, there is no hope left.
     """
+    if len(hunt.extra_of) >= _NO_HOPE:
+        return None
     hunt.trusting = True
     every = ranked(hunt)
     hunt.trusting = False
@@ -109,6 +121,12 @@ def _best(hunt: Hunt, every: Sequence[Found]) -> Found | None:
     if PEAK in hunt.requirements.derived:
         return _with_a_shaft(hunt, every)
     best = next(iter(every), None)
+    hunt.short_of = ()
+    if best is not None and best.weak:
+        strong = max(every, key=_shaft_margin)
+        if _shaft_margin(strong) < _NOT_FAR:
+            hunt.short_of = strong.weak
+            return None
     if best is None or best.weak:
         best = _hoped_for(hunt) or best
     if best is None:
@@ -159,6 +177,7 @@ def ranked(hunt: Hunt, *, thorough: bool = True) -> list[Found]:
         found.append(one)
         if one.weak:
             hunt.too_weak[kind.space.disc_count, kind.bore] = _bears(hunt, one)
+            _note_ends(hunt, kind, one)
             continue
         hunt.known[_key(kind.space)] = one
         if not one.worth[0] and (best is None or one.worth < best.worth):
@@ -216,12 +235,28 @@ def _bears(hunt: Hunt, found: Found) -> float:
 
 
 def _is_too_weak(hunt: Hunt, kind: _Kind) -> bool:
-    """Whether a bearing as wide at least was found to leave far too thin a shaft."""
-    peak = hunt.requirements.peak_torque
+    """Whether a bearing as wide at least was found to leave far too thin a shaft.
+
+    Or one much like it far too small bearings at the shaft's ends.
+    """
+    peak, own = hunt.requirements.peak_torque, kind.space.disc_count
     return any(
-        count == kind.space.disc_count and kind.bore <= bore and peak > most
+        count == own and kind.bore <= bore and peak > most
         for (count, bore), most in hunt.too_weak.items()
+    ) or any(
+        (count, family) == (own, kind.family)
+        and 1.0 / _ALIKE < kind.bore / bore < _ALIKE
+        and _FAR_SHORT * peak > most
+        for (count, family, bore), most in hunt.ends_bear.items()
     )
+
+
+def _note_ends(hunt: Hunt, kind: _Kind, found: Found) -> None:
+    """What the bearings at the ends of a weak design's shaft bear, where they tell of others."""
+    ends = [line for line in found.weak if line.id == ENDS and line.known]
+    if ends and ends[0].margin < _FAR_SHORT:
+        place = kind.space.disc_count, kind.family, kind.bore
+        hunt.ends_bear[place] = ends[0].margin * hunt.requirements.peak_torque
 
 
 def _answered(hunt: Hunt, space: Space) -> tuple[bool, Found | None]:
@@ -296,7 +331,7 @@ def _kinds(hunt: Hunt, space: Space, near: Found | None) -> Iterator[_Kind]:
         if known is not None and known.sized.objective.goal == hunt.goal:
             # What is asked may have grown since.
             objective = max(known.worth[1], one.objective / _SLACK)
-        yield _Kind(own, one.bearing.bore_diameter, objective)
+        yield _Kind(own, one.bearing.bore_diameter, one.bearing.kind, objective)
 
 
 def _screened_anew(kind: _Kind, better: Mapping[str, _Kind]) -> _Kind:
@@ -349,7 +384,8 @@ class _Rings:
 
     def _stronger(self, weak: Found, margin: float) -> Iterator[Found]:
         """Designs beside one whose shaft is weak that has what it lacks."""
-        for factor in _WIDER:
+        near = margin >= _FAR_SHORT
+        for factor in _WIDER if near else ():
             wider = self.at(min(factor * weak.ring, self._most))
             if wider is not None and not wider.weak:
                 yield wider
@@ -358,7 +394,7 @@ class _Rings:
         (cam,) = [one for one in self._hunt.held_against(weak.sized.machine)[1] if one.id == CAM]
         bears = cam.margin / self._hunt.extra_for(weak.cam).get(CAM, 1.0)
         for changed in (
-            *(space._replace(throw=less * throw) for less in _LESS_THROW),
+            *(space._replace(throw=less * throw) for less in _LESS_THROW if near),
             space._replace(quieter=_SPARE * bears / margin),
         ):
             self._space, self._tried = changed, {}

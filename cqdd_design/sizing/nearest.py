@@ -115,9 +115,9 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
 
 
 def _tried(hunt: Hunt, asked: Requirements) -> _Way:
-    """A search of its own for other requirements, never for more than they ask."""
+    """A search of its own for other requirements, never for more than they ask, for any design."""
     own = _new(hunt, asked)
-    own.lowered = True
+    own.lowered = own.any_will_do = True
     try:
         return _Way(own, searched(own, asked), None)
     except InfeasibleError as refusal:

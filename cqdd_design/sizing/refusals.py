@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from cqdd_design.design import Requirements
 from cqdd_design.gearbox.checks.guide import CHECK_GUIDE
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.sizing.agreement import RING, strongest
@@ -33,6 +34,8 @@ def nothing(hunt: Hunt) -> SizingInfeasibleError:
     # Of perfect parts where no gearbox has been looked at.
     hunt = replace(hunt, trusting=not hunt.has_extra)
     asked, space = hunt.requirements, next(spaces(hunt.requirements, hunt.fit))
+    if hunt.short_of:
+        return _no_shaft(hunt)
     search = Search.of(hunt.frame(space, {}), hunt.tables)
     if search.most_reserve() is None:
         closed = no_design(search, nearest=False)
@@ -42,9 +45,7 @@ def nothing(hunt: Hunt) -> SizingInfeasibleError:
     binding = _binding(hunt, space, share)
     words = list(dict.fromkeys(WORDS.get(one, CHECK_GUIDE[one].title) for one in binding))
     text = (
-        f"{asked.peak_torque:g} N*m at ratio {asked.ratio}, {asked.continuous_torque:g} N*m of it "
-        f"for ever, do not fit in {a_length(asked.outer_diameter)} ring and "
-        f"{1e3 * asked.length:g} mm of length: {listed(words)} "
+        f"{_asked(asked)} do not fit in {_space(asked)}: {listed(words)} "
         f"{'binds' if len(words) == 1 else 'bind'}"
     )
     if share < 1.0:
@@ -62,6 +63,30 @@ def nothing(hunt: Hunt) -> SizingInfeasibleError:
         binding=(*(("YIELD",) if hunt.has_extra else ()), *binding),
         most_torque=rounded_down(share * asked.peak_torque, 2) if share < 1.0 else None,
     )
+
+
+def _no_shaft(hunt: Hunt) -> SizingInfeasibleError:
+    """Teeth and cam bearing bear the loads, but no shaft, or no bearing at its ends."""
+    asked, lines = hunt.requirements, hunt.short_of
+    told = "; ".join(f"{line.title.lower()}: {line.substituted}" for line in lines)
+    return SizingInfeasibleError(
+        f"{_asked(asked)} do not fit in {_space(asked)}: of all designs that bear them at teeth and "
+        f"cam bearing, the one with the strongest shaft is still far short of {told}. Ask for less "
+        "torque or give more space.",
+        binding=tuple(line.id for line in lines),
+        most_torque=None,
+    )
+
+
+def _asked(asked: Requirements) -> str:
+    return (
+        f"{asked.peak_torque:g} N*m at ratio {asked.ratio}, {asked.continuous_torque:g} N*m of it "
+        "for ever,"
+    )
+
+
+def _space(asked: Requirements) -> str:
+    return f"{a_length(asked.outer_diameter)} ring and {1e3 * asked.length:g} mm of length"
 
 
 def _binding(hunt: Hunt, space: Space, share: float) -> tuple[str, ...]:

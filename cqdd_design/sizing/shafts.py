@@ -18,7 +18,8 @@ from cqdd_design.verdict.rotor_lines import rotor_lines
 from cqdd_design.verdict.shaft_lines import shaft_lines
 
 BOND = "BELL-JOINT"
-AT_PEAK = frozenset({"SHAFT-STRENGTH", "SUPPORT-STATIC"})
+ENDS = "SUPPORT-STATIC"
+AT_PEAK = frozenset({"SHAFT-STRENGTH", ENDS})
 """Lines of the shaft in proportion to the peak torque."""
 SHAFT = AT_PEAK | {"SHAFT-FATIGUE", "SUPPORT-LIFE", "SHAFT-ROTOR-GAP", "SHAFT-STUB", BOND}
 """Lines that a cam bearing with a wider bore helps."""

@@ -13,12 +13,14 @@ from typing import NamedTuple
 
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Requirements
+from cqdd_design.errors import InfeasibleError
 from cqdd_design.sizing.able import CONTINUOUS, PEAK, cooler, first_guess
 from cqdd_design.sizing.bearable import JUST, or_weaker, weaker
 from cqdd_design.sizing.costs import costs
 from cqdd_design.sizing.eased import LITTLE, MUCH, eased, given
 from cqdd_design.sizing.frame import Fit, Goal
 from cqdd_design.sizing.hunt import FITS, Found, Hunt, Progress
+from cqdd_design.sizing.infeasible import SizingInfeasibleError
 from cqdd_design.sizing.kinds import finer, lightest, promising
 from cqdd_design.sizing.looks import (
     HOT,
@@ -45,6 +47,9 @@ _NEEDLES_BRING = 0.8
 _PATIENCE = 6
 """Trials after which a gearbox that part errors leave short is eased, a sound one kept, and no cam
 bearing tried that has not been looked at."""
+_FEW = 8
+"""Trials in which any design that meets stated torques has to be found: where it takes more, space
+is so tight that a little more of it is the better advice."""
 _WORTH_IT = 0.99
 """Objective over a sound design's from which another is looked at instead."""
 _LEAST_SHARE = 0.5
@@ -121,16 +126,43 @@ def new_hunt(
 
 
 def searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
-    """The search of `size_to_verdict`; `requirements` are those that were stated."""
+    """The search of `size_to_verdict`; `requirements` are those that were stated.
+
+    Where the search for the best ends without a design, the first that meets everything is searched
+    for: that is what refusals name as the nearest, so whoever asks for it has to find it.
+    """
+    try:
+        return _searched(hunt, requirements)
+    except SizingInfeasibleError:
+        if hunt.any_will_do or hunt.calm is None:
+            raise
+        hunt.say("searching for any design that meets everything")
+        again = Hunt(
+            first_guess(requirements, hunt.motor),
+            hunt.motor,
+            hunt.ambient,
+            hunt.say,
+            hunt.tables,
+            hunt.goal,
+            any_will_do=True,
+        )
+        try:
+            return _searched(again, requirements)
+        except InfeasibleError:
+            pass
+        raise
+
+
+def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
     began, goal, progress = time.perf_counter(), hunt.goal, hunt.say
     if goal == "efficiency" and hunt.may_roll:
         hunt.pins = False, True
     progress("searching by closed forms, held against the contact equilibrium")
     found = or_weaker(hunt, lambda: promising(hunt))
     last: Verdict | None = None
-    thorough = False
+    thorough = hunt.any_will_do
     sound: _Sound | None = None
-    for trial in range(TRIALS):
+    for trial in range(_FEW if hunt.any_will_do and not requirements.derived else TRIALS):
         hunt.settling = trial >= _PATIENCE
         found = None if found is None else _with_rated_bearing(hunt, found)
         if found is None:
@@ -154,7 +186,7 @@ def searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
                 thorough = True
                 found = _better(hunt, found, sound, trial)
                 continue
-            if not hunt.fine:
+            if not (hunt.fine or hunt.any_will_do):
                 hunt.fine = True
                 found = finer(hunt, found)
                 continue
@@ -163,7 +195,7 @@ def searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
             can, step = look(hunt, found.sized.machine)
             if can is None and step is None:
                 step = last_look(hunt, found.sized.machine)
-                if (less := eased(hunt, found, _least_left(trial))) is not None:
+                if (less := eased(hunt, found, _least_left(hunt, trial))) is not None:
                     found = less
                     continue
             if can is None and step is None:
@@ -177,7 +209,7 @@ def searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
                 step = _next_step(hunt, found, last)
                 if step is None:
                     break
-                if (less := eased(hunt, found, _least_left(trial))) is not None:
+                if (less := eased(hunt, found, _least_left(hunt, trial))) is not None:
                     found = less
                     continue
             take(hunt, can, step, found.cam)
@@ -199,12 +231,12 @@ def _less_of_it(hunt: Hunt, found: Found, trial: int) -> Found | None:
     """
     if hunt.eased and trial < _PATIENCE:
         return None
-    return eased(hunt, found, _least_left(trial))
+    return eased(hunt, found, _least_left(hunt, trial))
 
 
-def _least_left(trial: int) -> float:
+def _least_left(hunt: Hunt, trial: int) -> float:
     """Share of a torque that is left at least where a gearbox is eased."""
-    return MUCH if trial >= _PATIENCE else LITTLE
+    return MUCH if hunt.any_will_do or trial >= _PATIENCE else LITTLE
 
 
 class _Sound(NamedTuple):
