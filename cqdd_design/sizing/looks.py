@@ -265,7 +265,7 @@ def read_spread(
     if len(numbers) >= share * count:
         if machine.design.reducer.cam_bearing.designation not in hunt.extra_of:
             # What they need is known now, where only what is usual was.
-            _ask_extra(hunt, machine, lines, _over(used(allowed, drawn), share))
+            _ask_extra(hunt, machine, _over(used(allowed, drawn), share))
         return None
     # No clearance makes a gearbox tighter or stiffer.
     loose = any(fails.get(name, 0) > (1.0 - share) * count for name in ("backlash", "stiffness"))
@@ -284,7 +284,7 @@ def read_spread(
         over = {check: float(ratio.max()) for check, ratio in ratios.items()}
     short = any(ratio > 1.0 for ratio in over.values())
     if short:
-        _ask_extra(hunt, machine, lines, over)
+        _ask_extra(hunt, machine, over)
         hunt.borne = _borne(over)
     slack = fails.get("backlash", 0) > fails["bind"] + jams
     wider = slack and _asks_for_a_wider_ring(hunt, machine, drawn, quantile)
@@ -298,10 +298,13 @@ def _over(ratios: Mapping[str, NDArray[np.float64]], share: float) -> dict[str, 
     return {check: float(np.quantile(ratio, share)) for check, ratio in ratios.items()}
 
 
-def _ask_extra(
-    hunt: Hunt, machine: Machine, lines: Iterable[Check], over: Mapping[str, float]
-) -> None:
-    """Note the reserve with which designs like one stay within their limits."""
+def _ask_extra(hunt: Hunt, machine: Machine, over: Mapping[str, float]) -> None:
+    """Note the reserve with which designs like one stay within their limits.
+
+    By the lines of rigid discs and ring, whatever the gearboxes did: it is these that searches
+    compare it with, and where bodies yield a design has more.
+    """
+    lines = hunt.held_against(replace(machine, stiff=True))[1]
     by_id = {line.id: line for line in lines}
     hunt.ask_extra(
         machine.design.reducer.cam_bearing.designation,

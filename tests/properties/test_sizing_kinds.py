@@ -209,7 +209,9 @@ def test_of_few_gearboxes_the_overloaded_one_asks_for_reserve(
     ensemble = SimpleNamespace(values=np.ones((32, 1)), lost=0)
     drawn = Drawn(ensemble, ensemble)  # type: ignore[arg-type]
     lines = (SimpleNamespace(id="BEARING-STATIC"),)
-    found = read_spread(hunt, SimpleNamespace(design=design), drawn, lines)  # type: ignore[arg-type]
+    monkeypatch.setattr(looks + "replace", lambda machine, **_: machine)
+    monkeypatch.setattr(Hunt, "held_against", lambda _hunt, machine: (machine, lines))
+    found = read_spread(hunt, SimpleNamespace(design=design), drawn, ())  # type: ignore[arg-type]
     assert found == step
     extra = hunt.extra_of.get("6803", {}).get("BEARING-STATIC", 1.0)
     assert extra == (pytest.approx(1.02 * 1.1) if not binding else 1.0)

@@ -471,6 +471,7 @@ def test_part_errors_ask_for_the_reserve_that_they_use_up() -> None:
         for one in exact_checks(machine)
     )
     hunt = Hunt(machine.design.requirements, None, None, print, stage_tables(10), "mass")
+    hunt.solved.append((machine, lines))
     assert read_spread(hunt, machine, drawn, lines) == 0.0
     allowed = Allowed.of(machine, lines)
     assert allowed is not None
@@ -496,8 +497,16 @@ def test_part_errors_ask_for_the_reserve_that_they_use_up() -> None:
         for one in exact_checks(machine)
     )
     calm = Hunt(machine.design.requirements, None, None, print, stage_tables(10), "mass")
+    calm.solved.append((machine, easy))
     assert read_spread(calm, machine, drawn, easy) is None
     # What they need is known from then on.
     assert set(calm.extra_of) == {cam}
     assert calm.borne is None
     assert calm.extra_of[cam]["CONTACT-RING-PEAK"] <= found
+    # Yielding bodies have more reserve than the rigid ones of a search: it is theirs that counts.
+    yielding = Hunt(machine.design.requirements, None, None, print, stage_tables(10), "mass")
+    yielding.solved.append((machine, easy))
+    assert read_spread(yielding, machine, drawn, lines) == 0.0
+    roomy_line = next(one for one in easy if one.id == "CONTACT-RING-PEAK")
+    more = (roomy_line.margin / line.margin) ** 2
+    assert yielding.extra_for(cam)["CONTACT-RING-PEAK"] == pytest.approx(more * found)
