@@ -49,7 +49,7 @@ DISC_COUNTS = (2, 3)
 _LIKELY, _HOPED = 0.95, 0.86
 """Of a reserve that part errors ask for with other cam bearings: they differ by so much."""
 _MANY = 3
-"""Cam bearings that have been looked at from which another is not hoped to need less than they: they
+"""Cam bearings that have been looked at from which on another is not hoped to need less: they
 differ by little, and each that is hoped for has to be looked at."""
 _USUAL = {
     "CONTACT-RING-CONTINUOUS": 2.0,

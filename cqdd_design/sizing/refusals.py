@@ -70,9 +70,9 @@ def _no_shaft(hunt: Hunt) -> SizingInfeasibleError:
     asked, lines = hunt.requirements, hunt.short_of
     told = "; ".join(f"{line.title.lower()}: {line.substituted}" for line in lines)
     return SizingInfeasibleError(
-        f"{_asked(asked)} do not fit in {_space(asked)}: of all designs that bear them at teeth and "
-        f"cam bearing, the one with the strongest shaft is still far short of {told}. Ask for less "
-        "torque or give more space.",
+        f"{_asked(asked)} do not fit in {_space(asked)}: of all designs that bear them at teeth "
+        f"and cam bearing, the one with the strongest shaft is still far short of {told}. Ask for "
+        "less torque or give more space.",
         binding=tuple(line.id for line in lines),
         most_torque=None,
     )

@@ -10,21 +10,29 @@ import numpy as np
 import pytest
 
 from cqdd_design.design import Requirements, requirements_from_mapping
+from cqdd_design.sizing.agreement import settled
 from cqdd_design.sizing.bearable import Borne, or_weaker
 from cqdd_design.sizing.eased import LITTLE, MUCH
 from cqdd_design.sizing.finish import _requirements_given
 from cqdd_design.sizing.hunt import FITS, MATERIALS, Hunt, Space, _undominated, spaces
+from cqdd_design.sizing.infeasible import SizingInfeasibleError
 from cqdd_design.sizing.kinds import (
     _answered,
+    _best,
+    _hoped_for,
+    _is_too_weak,
+    _Kind,
     _kinds,
     _least,
     _note,
+    _note_ends,
     _with_a_shaft,
     lightest,
     ranked,
 )
 from cqdd_design.sizing.looks import _asks_for_a_wider_ring, _calibrate, _drawn, read_spread
 from cqdd_design.sizing.refine import Starts, climb
+from cqdd_design.sizing.refusals import nothing
 from cqdd_design.sizing.search import Search
 from cqdd_design.sizing.shafts import weak_lines
 from cqdd_design.sizing.stage_tables import stage_tables
@@ -142,6 +150,31 @@ def test_what_errors_ask_of_a_bearing_follows_the_one_rated_most_alike() -> None
     assert hunt.extra_for("")["BEARING-STATIC"] == large
 
 
+def test_where_many_have_been_looked_at_no_other_is_hoped_to_need_less(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Each that is hoped for costs a search and a look; what they need differs by little."""
+    hunt = hunt_for(asked(10, 30.0, 4.0, 1000.0))
+    for cam, need in (("6800", 3.0), ("6905", 2.0), ("6803", 2.5)):
+        hunt.ask_extra(cam, {"BEARING-STATIC": need})
+    assert hunt.extra_for("6904") == {"BEARING-STATIC": 3.0}
+    assert hunt.extra_for("6905") == {"BEARING-STATIC": 2.0}
+    # A screen of all of them leaves room for the best, and hope is for less still.
+    assert hunt.extra_for("")["BEARING-STATIC"] < 2.0
+    hunt.trusting = True
+    assert hunt.extra_for("6904")["BEARING-STATIC"] < 2.0
+    hunt.trusting = False
+    calls: list[bool] = []
+    monkeypatch.setattr(
+        "cqdd_design.sizing.kinds.ranked", lambda one: calls.append(one.trusting) or []
+    )
+    assert _hoped_for(hunt) is None
+    for cam in ("6801", "6802", "6804"):
+        hunt.ask_extra(cam, {"BEARING-STATIC": 2.5})
+    assert _hoped_for(hunt) is None
+    assert calls == [True]
+
+
 def test_before_any_gearbox_is_looked_at_what_is_usual_is_asked() -> None:
     requirements = asked(10, 30.0, 4.0, 1000.0)
     hunt = Hunt(requirements, None, None, lambda _: None, stage_tables(10), "mass")
@@ -242,6 +275,110 @@ def test_torques_fall_to_what_the_best_of_the_shafts_bears(monkeypatch: pytest.M
         hunt.shaft_bears = bears
         assert or_weaker(hunt, iter([None, sound]).__next__) is sound
         assert hunt.requirements.peak_torque == peak
+
+
+def weak(*margins: tuple[str, float]) -> Any:
+    """A design that falls short in lines of its shaft."""
+    lines = tuple(
+        SimpleNamespace(
+            id=name, known=True, margin=margin, title="Shaft", substituted=f"so much {name}"
+        )
+        for name, margin in margins
+    )
+    return SimpleNamespace(weak=lines, worth=(bool(lines), 1.0), cam="6803")
+
+
+def test_where_all_shafts_are_far_too_weak_the_search_ends_and_says_so(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    hunt = hunt_for(asked(26, 42.9, 8.68, 300.0))
+    asks: list[Hunt] = []
+    monkeypatch.setattr("cqdd_design.sizing.kinds._hoped_for", asks.append)
+    near, far = weak(("SUPPORT-STATIC", 0.5)), weak(("SUPPORT-STATIC", 0.2), ("SUPPORT-LIFE", 0.3))
+    assert _best(hunt, [far, near]) is far
+    assert len(asks) == 1
+    assert hunt.short_of == ()
+    assert _best(hunt, [weak(("SUPPORT-STATIC", 0.1)), far]) is None
+    assert len(asks) == 1
+    refusal = nothing(hunt)
+    assert refusal.binding == ("SUPPORT-STATIC", "SUPPORT-LIFE")
+    assert "42.9 N*m at ratio 26, 8.68 N*m of it for ever" in refusal.message
+    assert "so much SUPPORT-STATIC; shaft: so much SUPPORT-LIFE" in refusal.message
+    # What is said of one search is not said of the next.
+    sound = weak()
+    assert _best(hunt, [sound]) is sound
+    assert hunt.short_of == ()
+
+
+def test_cam_bearings_like_one_with_far_too_weak_ends_are_not_tried() -> None:
+    hunt = hunt_for(asked(26, 42.9, 8.68, 300.0))
+    space = Space(2, MATERIALS[1], MATERIALS[1], FITS[0], cam="6803")
+
+    def kind(bore: float, family: str = "ball", count: int = 2) -> _Kind:
+        return _Kind(space._replace(disc_count=count), bore, family, 0.2)
+
+    _note_ends(hunt, kind(17e-3), weak(("SUPPORT-STATIC", 0.75)))
+    assert not hunt.ends_bear
+    _note_ends(hunt, kind(17e-3), weak(("SUPPORT-STATIC", 0.5), ("SUPPORT-LIFE", 0.1)))
+    assert _is_too_weak(hunt, kind(15e-3))
+    assert _is_too_weak(hunt, kind(19e-3))
+    others = kind(14e-3), kind(20e-3), kind(17e-3, "needle cage"), kind(17e-3, count=3)
+    assert not any(_is_too_weak(hunt, one) for one in others)
+    # A shaft that bears half bears seven tenths of a torque that is less.
+    hunt.requirements = asked(26, 0.5 / 0.69 * 42.9, 8.68, 300.0)
+    assert _is_too_weak(hunt, kind(15e-3))
+    hunt.requirements = asked(26, 0.5 / 0.71 * 42.9, 8.68, 300.0)
+    assert not _is_too_weak(hunt, kind(15e-3))
+
+
+def test_what_is_far_too_weak_at_its_strongest_is_not_searched(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Seen from the strongest point, by the equilibrium."""
+    hunt = hunt_for(asked(10, 30.0, 4.0, 1000.0))
+    space = Space(2, MATERIALS[1], MATERIALS[1], FITS[0], cam="6803", free=True)
+    assert settled(hunt, space, None, None, None)[0] is not None
+    monkeypatch.setattr(
+        "cqdd_design.sizing.search.Search.lightest_from", lambda *_: pytest.fail("is searched")
+    )
+    hunt.requirements = asked(10, 200.0, 4.0, 1000.0)
+    assert settled(hunt, space, None, None, None) == (None, False)
+
+
+def test_before_a_refusal_any_design_is_searched_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As refusals do for the nearest that fits, so that it is found when asked for."""
+    stated = asked(10, 30.0, 4.0, 1000.0)
+    tried: list[bool] = []
+
+    def search(hunt: Hunt, _: Requirements) -> Any:
+        tried.append(hunt.any_will_do)
+        hunt.calm = (None, True)
+        if hunt.any_will_do and found is not None:
+            return found
+        raise SizingInfeasibleError("none.", binding=("YIELD",), most_torque=None)
+
+    monkeypatch.setattr("cqdd_design.sizing.verified._searched", search)
+    found: Any = SimpleNamespace()
+    assert searched(hunt_for(stated), stated) is found
+    found = None
+    with pytest.raises(SizingInfeasibleError):
+        searched(hunt_for(stated), stated)
+    assert tried == [False, True] * 2
+
+
+def test_any_design_is_the_first_that_is_sound(monkeypatch: pytest.MonkeyPatch) -> None:
+    hunt = hunt_for(asked(10, 30.0, 4.0, 1000.0))
+    ways: list[bool] = []
+
+    def every(_: Hunt, *, thorough: bool = True) -> list[Any]:
+        ways.append(thorough)
+        return [weak()]
+
+    monkeypatch.setattr("cqdd_design.sizing.kinds.ranked", every)
+    assert lightest(hunt) is not None
+    hunt.any_will_do = True
+    assert lightest(hunt) is not None
+    assert ways == [True, False]
 
 
 def test_a_design_says_the_torques_that_were_tried() -> None:
