@@ -23,12 +23,13 @@ from cqdd_design.errors import ContactError, DesignError
 from cqdd_design.machine import resolve
 from cqdd_design.sizing.exact import exact_checks
 from cqdd_design.sizing.finish import finish
-from cqdd_design.sizing.hunt import Found, Hunt, spaces
+from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.kinds import lightest
 from cqdd_design.sizing.points import Evaluator, Points
 from cqdd_design.sizing.ring_stages import Pins
 from cqdd_design.sizing.search import Search
 from cqdd_design.sizing.shafts import weak_lines
+from cqdd_design.sizing.spaces import Found, spaces
 from cqdd_design.sizing.stage_tables import stage_tables
 
 TIMES = 100.0

@@ -17,10 +17,11 @@ from cqdd_design.machine import Machine, resolve
 from cqdd_design.results import Check
 from cqdd_design.sizing.exact import shortfalls
 from cqdd_design.sizing.finish import design_of, finish, torque_reserve
-from cqdd_design.sizing.hunt import CAM, Found, Hunt, Space, spaces
+from cqdd_design.sizing.hunt import CAM, Hunt
 from cqdd_design.sizing.points import Evaluator, Points
 from cqdd_design.sizing.refine import Starts, best_rows
 from cqdd_design.sizing.search import Search
+from cqdd_design.sizing.spaces import Found, Space, spaces
 
 _ROUNDS, _UNDAMPED, _STRONG_ROUNDS = 8, 3, 5
 _BACK = 2

@@ -14,8 +14,9 @@ from cqdd_design.sizing.able import CONTINUOUS, PEAK
 from cqdd_design.sizing.agreement import strongest
 from cqdd_design.sizing.choose import strong_bearings
 from cqdd_design.sizing.finish import torque_reserve
-from cqdd_design.sizing.hunt import Found, Hunt, Space, spaces
+from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.search import Search
+from cqdd_design.sizing.spaces import Found, Space, spaces
 
 _LESS, _HALF, _TURNS = 0.95, 0.5, 16
 """Share of both torques that is tried next where the strongest design would bear them, the least

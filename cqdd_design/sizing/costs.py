@@ -11,10 +11,11 @@ from dataclasses import replace
 
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.sizing.agreement import settled
-from cqdd_design.sizing.hunt import Found, Hunt, Space
+from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.looks import closer_look
 from cqdd_design.sizing.result import Cost
 from cqdd_design.sizing.search import Search
+from cqdd_design.sizing.spaces import Found, Space
 
 _MORE, _TWICE, _LESS_ROOM = 1.1, 2.0, 0.95
 

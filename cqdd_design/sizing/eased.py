@@ -9,8 +9,9 @@ import numpy as np
 from cqdd_design.sizing.able import CONTINUOUS, PEAK
 from cqdd_design.sizing.bearable import weaker
 from cqdd_design.sizing.finish import finish
-from cqdd_design.sizing.hunt import Found, Hunt
+from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.search import Search
+from cqdd_design.sizing.spaces import Found
 
 LITTLE, MUCH = 0.9, 0.7
 """Share of a torque that is left where a search for more reserve would only go from one design that

@@ -23,8 +23,9 @@ from cqdd_design.sizing.able import cooler, what_it_can
 from cqdd_design.sizing.bearable import LASTING, weaker
 from cqdd_design.sizing.exact import yielding_checks
 from cqdd_design.sizing.finish import torque_reserve
-from cqdd_design.sizing.hunt import FITS, Found, Hunt, spaces
+from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.shafts import stronger_shaft
+from cqdd_design.sizing.spaces import FITS, Found, spaces
 from cqdd_design.verdict.drawn import Allowed, Drawn, drawn_gearboxes, good_gearboxes, used
 from cqdd_design.verdict.joint_lines import bell_line
 

@@ -16,9 +16,9 @@ from cqdd_design.gearbox.film.mixed import BOUNDARY_FRICTION
 from cqdd_design.geometry.scale import largest_ring
 from cqdd_design.sizing.frame import Goal, search_frame
 from cqdd_design.sizing.goals import tied, untied
-from cqdd_design.sizing.hunt import FITS, Space, spaces
 from cqdd_design.sizing.result import SizedDesign
 from cqdd_design.sizing.search import Search
+from cqdd_design.sizing.spaces import FITS, Space, spaces
 from cqdd_design.sizing.stage_tables import stage_tables
 
 RANKED = MappingProxyType(

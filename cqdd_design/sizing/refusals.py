@@ -10,7 +10,7 @@ from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.sizing.agreement import RING, strongest
 from cqdd_design.sizing.bearable import both_bearable, times
 from cqdd_design.sizing.finish import torque_reserve
-from cqdd_design.sizing.hunt import FITS, Found, Hunt, Space, spaces
+from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.infeasible import (
     CLOSE,
     WORDS,
@@ -20,6 +20,7 @@ from cqdd_design.sizing.infeasible import (
     no_design,
 )
 from cqdd_design.sizing.search import Search
+from cqdd_design.sizing.spaces import FITS, Found, Space, spaces
 from cqdd_design.verdict import Verdict
 
 TRIALS = 20

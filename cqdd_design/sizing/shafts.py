@@ -13,7 +13,8 @@ from cqdd_design.machine import Machine
 from cqdd_design.results import Check
 from cqdd_design.sizing.able import PEAK
 from cqdd_design.sizing.bearable import JUST, bearable, weaker
-from cqdd_design.sizing.hunt import Found, Hunt
+from cqdd_design.sizing.hunt import Hunt
+from cqdd_design.sizing.spaces import Found
 from cqdd_design.verdict.rotor_lines import rotor_lines
 from cqdd_design.verdict.shaft_lines import shaft_lines
 

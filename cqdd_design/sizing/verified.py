@@ -19,9 +19,9 @@ from cqdd_design.sizing.bearable import JUST, or_weaker, weaker
 from cqdd_design.sizing.costs import costs
 from cqdd_design.sizing.eased import LITTLE, MUCH, eased, given
 from cqdd_design.sizing.frame import Fit, Goal
-from cqdd_design.sizing.hunt import FITS, Found, Hunt, Progress
+from cqdd_design.sizing.hunt import Hunt, Progress
 from cqdd_design.sizing.infeasible import SizingInfeasibleError
-from cqdd_design.sizing.kinds import finer, lightest, promising
+from cqdd_design.sizing.kinds import lightest, promising
 from cqdd_design.sizing.looks import (
     HOT,
     NothingWiderError,
@@ -34,8 +34,10 @@ from cqdd_design.sizing.looks import (
 )
 from cqdd_design.sizing.refusals import TRIALS, nothing, refused, unsettled
 from cqdd_design.sizing.result import SizingResult
+from cqdd_design.sizing.rings import finer
 from cqdd_design.sizing.search import Search
 from cqdd_design.sizing.shafts import BOND, SHAFT, stronger_shaft
+from cqdd_design.sizing.spaces import FITS, Found
 from cqdd_design.sizing.stage_tables import stage_tables
 from cqdd_design.verdict import Verdict, judge
 

@@ -14,27 +14,26 @@ from cqdd_design.sizing.agreement import settled
 from cqdd_design.sizing.bearable import Borne, or_weaker
 from cqdd_design.sizing.eased import LITTLE, MUCH
 from cqdd_design.sizing.finish import _requirements_given
-from cqdd_design.sizing.hunt import FITS, MATERIALS, Hunt, Space, _undominated, spaces
+from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.infeasible import SizingInfeasibleError
 from cqdd_design.sizing.kinds import (
-    _answered,
     _best,
     _hoped_for,
     _is_too_weak,
     _Kind,
     _kinds,
-    _least,
-    _note,
     _note_ends,
     _with_a_shaft,
     lightest,
     ranked,
 )
+from cqdd_design.sizing.known import answered, least_of, note
 from cqdd_design.sizing.looks import _asks_for_a_wider_ring, _calibrate, _drawn, read_spread
 from cqdd_design.sizing.refine import Starts, climb
 from cqdd_design.sizing.refusals import nothing
 from cqdd_design.sizing.search import Search
 from cqdd_design.sizing.shafts import weak_lines
+from cqdd_design.sizing.spaces import FITS, MATERIALS, Space, _undominated, spaces
 from cqdd_design.sizing.stage_tables import stage_tables
 from cqdd_design.sizing.verified import (
     _PATIENCE,
@@ -455,26 +454,26 @@ def test_a_kind_that_was_heavier_for_less_is_not_searched_again() -> None:
     hunt = hunt_for(asked(10, 40.0, 4.0, 1000.0))
     space = Space(2, MATERIALS[1], MATERIALS[1], FITS[0], cam="6803")
     hunt.ask_extra("6803", {"BEARING-STATIC": 1.2})
-    assert _least(hunt, space) == 0.0
-    _note(hunt, space, None, 0.3)
+    assert least_of(hunt, space) == 0.0
+    note(hunt, space, None, 0.3)
     assert hunt.answered[space].gave_up
-    assert _answered(hunt, space) == (False, None)
-    assert _least(hunt, space) == 0.3
+    assert answered(hunt, space) == (False, None)
+    assert least_of(hunt, space) == 0.3
     # Nor with more clearance, nor for more reserve; but for less, or another torque, it may win.
-    assert _least(hunt, space._replace(fit=FITS[2])) == 0.3
+    assert least_of(hunt, space._replace(fit=FITS[2])) == 0.3
     hunt.ask_extra("6803", {"BEARING-STATIC": 1.3})
-    assert _least(hunt, space) == 0.3
+    assert least_of(hunt, space) == 0.3
     hunt.extra_of["6803"]["BEARING-STATIC"] = 1.1
-    assert _least(hunt, space) == 0.0
+    assert least_of(hunt, space) == 0.0
     hunt.extra_of["6803"]["BEARING-STATIC"] = 1.2
     hunt.least_bore = 0.01
-    assert _least(hunt, space) == 0.3
+    assert least_of(hunt, space) == 0.3
     hunt.requirements = asked(10, 39.0, 4.0, 1000.0)
-    assert _least(hunt, space) == 0.0
+    assert least_of(hunt, space) == 0.0
     # Where nothing is at all, that is the answer.
-    _note(hunt, space, None, np.inf)
+    note(hunt, space, None, np.inf)
     assert not hunt.answered[space].gave_up
-    assert _answered(hunt, space) == (True, None)
+    assert answered(hunt, space) == (True, None)
 
 
 def test_in_the_end_only_known_cam_bearings_are_tried(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -491,7 +490,7 @@ def test_in_the_end_only_known_cam_bearings_are_tried(monkeypatch: pytest.Monkey
         tried.append(space.cam)
         return None, False
 
-    monkeypatch.setattr("cqdd_design.sizing.kinds.settled", none)
+    monkeypatch.setattr("cqdd_design.sizing.rings.settled", none)
     hunt.ask_extra("6803", {"BEARING-STATIC": 1.2})
     hunt.settling = True
     assert ranked(hunt) == []

@@ -17,11 +17,12 @@ from cqdd_design.sizing.bought_parts import needle_pins
 from cqdd_design.sizing.exact import exact_checks
 from cqdd_design.sizing.finish import design_of, torque_reserve
 from cqdd_design.sizing.frame import search_frame
-from cqdd_design.sizing.hunt import FITS, NEEDLE_PINS, Hunt, spaces
+from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.kinds import lightest
 from cqdd_design.sizing.points import Evaluator, Pins
 from cqdd_design.sizing.reserves import needle_reserves_per_radius, pin_reserves_per_radius
 from cqdd_design.sizing.search import Search
+from cqdd_design.sizing.spaces import FITS, NEEDLE_PINS, spaces
 from cqdd_design.sizing.stage_tables import stage_tables
 from cqdd_design.sizing.verified import _again, _needles_help, _turned, size_to_verdict
 from cqdd_design.verdict.headline import efficiency

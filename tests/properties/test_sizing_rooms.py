@@ -13,10 +13,11 @@ from cqdd_design.geometry.scale import largest_ring, millimetre_unit, smallest_r
 from cqdd_design.sizing.agreement import agreed
 from cqdd_design.sizing.costs import costs
 from cqdd_design.sizing.frame import USUAL_FIT, search_frame
-from cqdd_design.sizing.hunt import MATERIALS, Hunt, Space
+from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.kinds import lightest, ranked
 from cqdd_design.sizing.shafts import weak_lines
 from cqdd_design.sizing.size import size
+from cqdd_design.sizing.spaces import MATERIALS, Space
 from cqdd_design.sizing.stage_tables import stage_tables
 
 ASKED = {

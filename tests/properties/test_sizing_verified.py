@@ -30,7 +30,7 @@ from cqdd_design.sizing.eased import eased
 from cqdd_design.sizing.exact import exact_checks, shortfalls
 from cqdd_design.sizing.finish import torque_reserve
 from cqdd_design.sizing.frame import Fit, search_frame
-from cqdd_design.sizing.hunt import FITS, MATERIALS, Found, Hunt, Space, spaces
+from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.kinds import lightest
 from cqdd_design.sizing.looks import (
     NothingWiderError,
@@ -42,6 +42,7 @@ from cqdd_design.sizing.looks import (
 from cqdd_design.sizing.refusals import unsettled
 from cqdd_design.sizing.reserves import ring_reserves
 from cqdd_design.sizing.shafts import stronger_shaft
+from cqdd_design.sizing.spaces import FITS, MATERIALS, Found, Space, spaces
 from cqdd_design.sizing.stage_tables import stage_tables
 from cqdd_design.sizing.verified import (
     _next_step,
@@ -420,7 +421,7 @@ def test_the_order_of_spaces_decides_nothing_and_no_ring_is_searched_twice(
             rings.setdefault(space._replace(ring_limit=math.inf), []).append(space.ring_limit)
         return settled(hunt, space, *rest, **beside)
 
-    monkeypatch.setattr("cqdd_design.sizing.kinds.settled", noted)
+    monkeypatch.setattr("cqdd_design.sizing.rings.settled", noted)
     hunt.fine = True
     lighter = lightest(hunt)
     assert lighter is not None
