@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from cqdd_design.design import Requirements
 from cqdd_design.errors import ContactError
-from cqdd_design.gearbox.tolerance.run import BLOCK, ToleranceResult
+from cqdd_design.gearbox.tolerance.run import BLOCK, FIRST, ToleranceResult
 from cqdd_design.machine import Machine
 from cqdd_design.machine.temperatures import MachineTemperatures, judged_temperatures
 from cqdd_design.results import Check
@@ -31,7 +31,7 @@ from cqdd_design.verdict.joint_lines import bell_line
 HOT = "THERMAL-RISE"
 _LEAST_STEP = 1e-6
 """Clearance that has to grow at all, m: to the next fit."""
-_TRIAL_SAMPLES = 32
+_TRIAL_SAMPLES = FIRST
 _LESS = 0.9
 """Share of both torques that is tried next where a gearbox has no equilibrium."""
 _SPARE = 1.02
