@@ -7,7 +7,9 @@ more reserve.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from dataclasses import replace
 
 import numpy as np
@@ -202,19 +204,36 @@ def last_look(hunt: Hunt, machine: Machine) -> float | None:
     return None
 
 
+@contextmanager
+def drawing_ahead(machine: Machine) -> Iterator[None]:
+    """Draw the first gearboxes of `last_look` beside other looks: they are kept for it.
+
+    What is wrong with them it finds and tells itself.
+    """
+    with ThreadPoolExecutor(1) as beside:
+        beside.submit(drawn_gearboxes, machine, _TRIAL_SAMPLES, sensitivity=False)
+        yield
+
+
 def _drawn(hunt: Hunt, machine: Machine) -> Drawn:
     """A few gearboxes, whose discs and ring yield as they did at another design of the hunt.
 
     The finite elements of a new geometry cost more than all else here, and what yielding changes,
     as a share, is alike for designs of one hunt with discs of about the same thickness.
     """
-    rigid = drawn_gearboxes(machine, _TRIAL_SAMPLES, sensitivity=False, rigid=True)
-    hunt.rigid = machine, tuple(_high(one) for one in rigid)
     thicker = machine.design.reducer.disc_thickness / (hunt.yielding_at or math.inf)
-    if hunt.yielding is None or not 1.0 / _ALIKE <= thicker <= _ALIKE:
+    new = hunt.yielding is None or not 1.0 / _ALIKE <= thicker <= _ALIKE
+    with ThreadPoolExecutor(1) as beside:
+        if new:
+            # They are asked for next, and rigid gearboxes leave Python to them.
+            beside.submit(getattr, machine, "bodies")
+        rigid = drawn_gearboxes(machine, _TRIAL_SAMPLES, sensitivity=False, rigid=True)
+    hunt.rigid = machine, tuple(_high(one) for one in rigid)
+    if new:
         found = drawn_gearboxes(machine, _TRIAL_SAMPLES, sensitivity=False)
         _calibrate(hunt, machine, found)
         return found
+    assert hunt.yielding is not None
     return Drawn(
         *(
             replace(one, values=one.values * share)

@@ -26,6 +26,7 @@ from cqdd_design.sizing.looks import (
     HOT,
     NothingWiderError,
     clearance_needed,
+    drawing_ahead,
     last_look,
     learn,
     look,
@@ -162,7 +163,8 @@ def searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
                 continue
             # With elastic discs and ring, of which the looks before knew nothing.
             sound = None
-            can, step = look(hunt, found.sized.machine)
+            with drawing_ahead(found.sized.machine):
+                can, step = look(hunt, found.sized.machine)
             if can is None and step is None:
                 step = last_look(hunt, found.sized.machine)
                 if (less := eased(hunt, found, _least_left(trial))) is not None:
