@@ -165,6 +165,8 @@ def run_once(command: Command, kept: str) -> tuple[float, str]:
     path = os.pathsep.join(p for p in (str(REPOSITORY), os.environ.get("PYTHONPATH")) if p)
     theirs = command.name.startswith("their")
     environment = {**os.environ, "PYTHONPATH": "" if theirs else path}
+    # As after an installation: whoever forbids byte code to be kept would measure its making.
+    environment.pop("PYTHONDONTWRITEBYTECODE", None)
     with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as empty:
         environment["CQDD_DESIGN_CACHE"] = empty if command.new else kept
         if command.first:

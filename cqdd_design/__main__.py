@@ -13,10 +13,13 @@ from cqdd_design.cli import interruption
 def _start_lightly() -> None:
     """Spare a short process what only long ones need.
 
-    Pydantic looks through every installed distribution for plugins, of which none is used here,
-    and the cyclic collector walks all imported modules again and again.
+    Pydantic looks through every installed distribution for plugins, of which none is used here;
+    threads of numpy's and scipy's linear algebra, whose matrices here are small, wait for the next
+    product by turning in circles, a tenth of all the processor's time; and the cyclic collector
+    walks all imported modules again and again.
     """
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     gc.set_threshold(100_000, 20, 100)
 
 

@@ -72,7 +72,7 @@ class Transmission:
     backlash: float
 
 
-@lru_cache(maxsize=2)
+@lru_cache(maxsize=8)
 def transmission(
     model: ContactModel, design: Design, torque: float, *, seed: int | None = None
 ) -> Transmission:

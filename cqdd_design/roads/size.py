@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from cqdd_design.actuator.specimen import Specimen
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design, Requirements
 from cqdd_design.design.motor import MotorFile
@@ -21,10 +21,10 @@ from cqdd_design.roads.sized_file import refuse_edited, refuse_judged, write_fre
 from cqdd_design.roads.telling import Progress, silent
 from cqdd_design.sizing import SizingResult, size
 from cqdd_design.sizing.frame import Goal
-from cqdd_design.sizing.motors import MotorChoice, size_with_any
-from cqdd_design.sizing.nearest import size_or_nearest
-from cqdd_design.sizing.verified import size_to_verdict
-from cqdd_design.verdict import Verdict, judge
+
+if TYPE_CHECKING:
+    from cqdd_design.sizing.motors import MotorChoice
+    from cqdd_design.verdict import Verdict
 
 
 @dataclass(frozen=True)
@@ -144,21 +144,22 @@ def size_and_write(
         goal=goal,
         progress=progress,
     )
-    design, specimen = road.design, Specimen()
+    design = road.design
     written_design = write_fresh(
         target, design, _origins(road), road.sizing.costs, judged=road.verdict is not None
     )
     files: tuple[WrittenFile, ...] = (written_design,)
     if kinds:
-        machine = specimen.machine(design)
-        files += export(machine, kinds, specimen=specimen, progress=progress)
+        from cqdd_design.actuator.specimen import AS_DRAWN
+
+        machine = AS_DRAWN.machine(design)
+        files += export(machine, kinds, specimen=AS_DRAWN, progress=progress)
     if report:
         # It computes everything there is, and imports as much.
         from cqdd_design.roads.report import write_report
 
         written = write_report(
             design,
-            specimen=specimen,
             source=target,
             sizing=road.sizing,
             files=files,
@@ -263,12 +264,18 @@ def _sized(
         if quick:
             alone = size(asked, progress, motor=row, ambient=ambient, goal=goal)
             return _Sized(alone, None, frozenset())
+        # The models of a verdict take as long to come as the screen alone to look.
+        from cqdd_design.sizing.nearest import size_or_nearest
+        from cqdd_design.sizing.verified import size_to_verdict
+
         # Of many motors each refusal would take minutes.
         way = size_to_verdict if any_motor else size_or_nearest
         done = way(asked, progress, motor=row, ambient=ambient, goal=goal)
         return _Sized(done.sizing, done.verdict, done.derived)
 
     if any_motor:
+        from cqdd_design.sizing.motors import size_with_any
+
         first = size_with_any(
             requirements,
             with_motor,
@@ -285,6 +292,8 @@ def _sized(
     sizing = found.sizing.picking(pick)
     if found.verdict is None:
         return replace(found, sizing=sizing)
+    from cqdd_design.verdict import judge
+
     progress(f"judging {sizing.design.name} by the whole verdict")
     return replace(found, sizing=sizing, verdict=judge(resolve(sizing.design, row)))
 

@@ -7,7 +7,9 @@ more reserve.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from dataclasses import replace
 
 import numpy as np
@@ -15,7 +17,7 @@ from numpy.typing import NDArray
 
 from cqdd_design.design import Requirements
 from cqdd_design.errors import ContactError
-from cqdd_design.gearbox.tolerance.run import BLOCK, ToleranceResult
+from cqdd_design.gearbox.tolerance.run import BLOCK, FIRST, ToleranceResult
 from cqdd_design.machine import Machine
 from cqdd_design.machine.temperatures import MachineTemperatures, judged_temperatures
 from cqdd_design.results import Check
@@ -32,7 +34,7 @@ from cqdd_design.verdict.joint_lines import bell_line
 HOT = "THERMAL-RISE"
 _LEAST_STEP = 1e-6
 """Clearance that has to grow at all, m: to the next fit."""
-_TRIAL_SAMPLES = 32
+_TRIAL_SAMPLES = FIRST
 _LESS = 0.9
 """Share of both torques that is tried next where a gearbox has no equilibrium."""
 _SPARE = 1.02
@@ -203,19 +205,36 @@ def last_look(hunt: Hunt, machine: Machine) -> float | None:
     return None
 
 
+@contextmanager
+def drawing_ahead(machine: Machine) -> Iterator[None]:
+    """Draw the first gearboxes of `last_look` beside other looks: they are kept for it.
+
+    What is wrong with them it finds and tells itself.
+    """
+    with ThreadPoolExecutor(1) as beside:
+        beside.submit(drawn_gearboxes, machine, _TRIAL_SAMPLES, sensitivity=False)
+        yield
+
+
 def _drawn(hunt: Hunt, machine: Machine) -> Drawn:
     """A few gearboxes, whose discs and ring yield as they did at another design of the hunt.
 
     The finite elements of a new geometry cost more than all else here, and what yielding changes,
     as a share, is alike for designs of one hunt with discs of about the same thickness.
     """
-    rigid = drawn_gearboxes(machine, _TRIAL_SAMPLES, sensitivity=False, rigid=True)
-    hunt.rigid = machine, tuple(_high(one) for one in rigid)
     thicker = machine.design.reducer.disc_thickness / (hunt.yielding_at or math.inf)
-    if hunt.yielding is None or not 1.0 / _ALIKE <= thicker <= _ALIKE:
+    new = hunt.yielding is None or not 1.0 / _ALIKE <= thicker <= _ALIKE
+    with ThreadPoolExecutor(1) as beside:
+        if new:
+            # They are asked for next, and rigid gearboxes leave Python to them.
+            beside.submit(getattr, machine, "bodies")
+        rigid = drawn_gearboxes(machine, _TRIAL_SAMPLES, sensitivity=False, rigid=True)
+    hunt.rigid = machine, tuple(_high(one) for one in rigid)
+    if new:
         found = drawn_gearboxes(machine, _TRIAL_SAMPLES, sensitivity=False)
         _calibrate(hunt, machine, found)
         return found
+    assert hunt.yielding is not None
     return Drawn(
         *(
             replace(one, values=one.values * share)

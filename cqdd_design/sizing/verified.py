@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass
+from concurrent.futures import ThreadPoolExecutor
+from copy import copy
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from cqdd_design.catalog.motors import Motor
@@ -26,6 +28,7 @@ from cqdd_design.sizing.looks import (
     HOT,
     NothingWiderError,
     clearance_needed,
+    drawing_ahead,
     last_look,
     learn,
     look,
@@ -194,7 +197,8 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
                 continue
             # With elastic discs and ring, of which the looks before knew nothing.
             sound = None
-            can, step = look(hunt, found.sized.machine)
+            with drawing_ahead(found.sized.machine):
+                can, step = look(hunt, found.sized.machine)
             if can is None and step is None:
                 step = last_look(hunt, found.sized.machine)
                 if (less := eased(hunt, found, _least_left(hunt, trial))) is not None:
@@ -202,9 +206,12 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
                     continue
             if can is None and step is None:
                 progress(f"judging {found.sized.design.name} by the whole verdict")
-                last = judge(found.sized.machine)
+                # Nearly every design that comes so far is the answer.
+                with ThreadPoolExecutor(1) as beside:
+                    result = beside.submit(_result, _aside(hunt), found, began)
+                    last = judge(found.sized.machine)
                 if last.meets == "yes":
-                    return _verified(hunt, found, last, requirements, began)
+                    return _verified(hunt, result.result(), last, requirements)
                 if _turned(hunt, found, last):
                     found = or_weaker(hunt, lambda: lightest(hunt))
                     continue
@@ -312,11 +319,16 @@ def _with_rated_bearing(hunt: Hunt, found: Found) -> Found:
 
 
 def _verified(
-    hunt: Hunt, found: Found, verdict: Verdict, asked: Requirements, began: float
+    hunt: Hunt, sizing: SizingResult, verdict: Verdict, asked: Requirements
 ) -> VerifiedDesign:
     added = hunt.requirements.model_fields_set - asked.model_fields_set
-    sizing = _result(hunt, found, began)
     return VerifiedDesign(sizing, verdict, asked.derived | added)
+
+
+def _aside(hunt: Hunt) -> Hunt:
+    """A hunt that knows as much, and teaches this one nothing."""
+    known = "solved", "known", "answered", "too_weak"
+    return replace(hunt, **{name: copy(getattr(hunt, name)) for name in known})
 
 
 def _result(hunt: Hunt, found: Found, began: float) -> SizingResult:

@@ -182,11 +182,6 @@ class Posed:
         found = closed_mesh(self.part, picture_quality(self.part)).vertices
         return np.asarray(found @ self.pose[:3, :3].T + self.pose[:3, 3] * MM)
 
-    @property
-    def triangles(self) -> np.ndarray:
-        """Corners (t, 3) of the mesh's triangles."""
-        return closed_mesh(self.part, picture_quality(self.part)).triangles
-
 
 def posed(station: Station, design: Design, crank_angle: float) -> tuple[Posed, ...]:
     """A station's pieces at a crank angle (rad)."""

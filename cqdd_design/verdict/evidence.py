@@ -83,9 +83,11 @@ def gather(
     # What cannot exist is refused before anything is told.
     _ = machine.analysis
     progress("judging loads, stress and life")
-    stress, stress_checks, unstressed = judged_or_told(machine)
-    # Gearboxes are drawn in compiled code, beside which heat and motor have another core.
+    # All that follows asks for them.
+    _ = machine.bodies
+    # Gearboxes are drawn in compiled code, beside which all else has another core.
     with ThreadPoolExecutor(1) as beside:
+        strained = beside.submit(judged_or_told, machine)
         heat = beside.submit(judged_temperatures, machine)
         motor = beside.submit(_actuator, machine, specimen)
         progress("drawing toleranced gearboxes, and judging heat and motor")
@@ -93,8 +95,10 @@ def gather(
             drawn, undrawn = _drawn(machine, samples, sensitivity)
         except BaseException:
             # Ctrl-C: what has not begun is not waited for.
-            motor.cancel()
+            for one in (heat, motor):
+                one.cancel()
             raise
+        stress, stress_checks, unstressed = strained.result()
         warm, heat_checks, cold = heat.result()
         actuator, no_actuator = motor.result()
     return Evidence(

@@ -291,3 +291,26 @@ sys.exit(main())
     rest = process.communicate(timeout=30)[1]
     assert process.returncode == 130
     assert rest.split("\n")[:2] == ["imported", "cqdd-design: interrupted"]
+
+
+@pytest.mark.parametrize("stated", [None, "3"])
+def test_linear_algebra_of_a_command_keeps_to_one_core_unless_told(python, stated):
+    code = """
+import sys
+sys.argv = ["cqdd-design", "--version"]
+from cqdd_design.__main__ import main
+code = main()
+import numpy
+from threadpoolctl import threadpool_info
+blas = [one for one in threadpool_info() if one["internal_api"] == "openblas"]
+print("threads", [one["num_threads"] for one in blas])
+sys.exit(code)
+"""
+    mine = {k: v for k, v in os.environ.items() if not k.endswith("_NUM_THREADS")}
+    told = {} if stated is None else {"OPENBLAS_NUM_THREADS": stated}
+    done = python(code, env={**mine, **told})
+    assert done.returncode == 0
+    # A command that has ended gives its standard output away.
+    if "threads []" in done.stderr:
+        pytest.skip("this numpy has another library")
+    assert f"threads [{min(int(stated or 1), os.cpu_count())}]" in done.stderr

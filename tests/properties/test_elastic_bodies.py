@@ -8,6 +8,8 @@ import logging
 import os
 import subprocess
 import sys
+import threading
+from concurrent.futures import ThreadPoolExecutor, wait
 from pathlib import Path
 
 import numpy as np
@@ -24,6 +26,7 @@ from cqdd_design.errors import GeometryError
 from cqdd_design.gearbox.bodies import bore, cache
 from cqdd_design.gearbox.bodies import compliance as compliance_module
 from cqdd_design.gearbox.bodies import influence as influence_module
+from cqdd_design.gearbox.bodies import made as made_module
 from cqdd_design.gearbox.bodies import model as model_module
 from cqdd_design.gearbox.bodies.compliance import (
     ElasticBodies,
@@ -738,6 +741,29 @@ for k in range(200):
         for one in Path(sys.argv[1]).glob("*.body"):
             one.unlink(missing_ok=True)
 """
+
+
+def test_threads_that_ask_at_once_have_one_body(monkeypatch: pytest.MonkeyPatch) -> None:
+    begun, let_go, calls = threading.Event(), threading.Event(), []
+
+    def slow(design: Design) -> object:
+        calls.append(design)
+        begun.set()
+        assert let_go.wait(5.0)
+        return object()
+
+    monkeypatch.setattr(made_module, "elastic_bodies", slow)
+    made_module._read_once.cache_clear()
+    design = load_design(DESIGNS / "cqdd-10.toml")
+    with ThreadPoolExecutor(2) as pool:
+        first = pool.submit(made_module.bodies_or_none, design)
+        assert begun.wait(5.0)
+        second = pool.submit(made_module.bodies_or_none, design)
+        wait([second], timeout=0.1)
+        let_go.set()
+        assert first.result() is second.result()
+    assert len(calls) == 1
+    made_module._read_once.cache_clear()
 
 
 def test_two_processes_make_one_entry(tmp_path: Path) -> None:

@@ -13,6 +13,8 @@ from cqdd_design.gearbox.heat.expansion import PartTemperatures
 from cqdd_design.gearbox.tolerance import remembered
 from cqdd_design.gearbox.tolerance.ensemble import Block, make_ensemble, work_block, work_here
 from cqdd_design.gearbox.tolerance.evaluate import LOADS
+from cqdd_design.gearbox.tolerance.remembered import work_remembered
+from cqdd_design.gearbox.tolerance.run import BLOCK, FIRST, run_ensemble
 
 DESIGN = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
 ELSEWHERE = {
@@ -92,3 +94,20 @@ def test_the_code_of_another_state_is_another(tmp_path: Path, monkeypatch) -> No
     assert package_state.__wrapped__() == before
     (package / "data.csv").write_text("1")
     assert package_state.__wrapped__() != before
+
+
+def test_what_a_look_has_worked_the_verdict_does_not_work_again(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    one, worked = dataclasses.replace(ensemble(), outputs=LOADS), []
+
+    def counted(which, block: Block):
+        worked.append((block.first, block.count))
+        return work_block(which, block)
+
+    whole = work_block(one, Block(0, BLOCK + 3))
+    monkeypatch.setattr(remembered, "work_block", counted)
+    for samples in (FIRST, BLOCK, BLOCK + 3):
+        found = run_ensemble(one, samples, mapper=work_remembered, sensitivity=False)
+        assert np.array_equal(found.values, whole[:samples])
+    assert worked == [(0, FIRST), (FIRST, BLOCK - FIRST), (BLOCK, 3)]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
@@ -554,6 +555,8 @@ def test_clearance_that_is_asked_for_late_is_given_to_the_same_gearbox(
     monkeypatch.setattr(road + "last_look", lambda *_: None)
     monkeypatch.setattr(road + "given", lambda *_: roomier)
     monkeypatch.setattr(road + "judge", lambda _: SimpleNamespace(meets="yes"))
+    monkeypatch.setattr(road + "drawing_ahead", lambda _: nullcontext())
+    monkeypatch.setattr(road + "_result", lambda _, found, *more: found)
     monkeypatch.setattr(road + "_verified", lambda _, found, *more: found)
     found: Any = searched(hunt, hunt.requirements)
     assert found is roomier

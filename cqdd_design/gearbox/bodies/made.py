@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from functools import lru_cache
 
 from cqdd_design.design import Design
@@ -17,6 +18,8 @@ from cqdd_design.gearbox.bodies.model import (
     to_standard,
 )
 from cqdd_design.gearbox.bodies.ring import RingShape
+
+_making = threading.Lock()
 
 
 def elastic_bodies(design: Design) -> ElasticBodies:
@@ -39,9 +42,17 @@ def elastic_bodies(design: Design) -> ElasticBodies:
     return ElasticBodies(tuple(discs), (ring, cached(ring, ring_body).widened()))
 
 
-@lru_cache(maxsize=2)
 def bodies_or_none(design: Design) -> ElasticBodies | None:
-    """The same, read once a process; None where :func:`elastic_bodies` raises."""
+    """The same, read once a process; None where :func:`elastic_bodies` raises.
+
+    Of threads that ask at once one makes them, and the others wait for it.
+    """
+    with _making:
+        return _read_once(design)
+
+
+@lru_cache(maxsize=2)
+def _read_once(design: Design) -> ElasticBodies | None:
     try:
         return elastic_bodies(design)
     except GeometryError:

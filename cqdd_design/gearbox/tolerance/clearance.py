@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
@@ -80,11 +81,11 @@ def clearance_study(
     offset = design.reducer.modification.equidistant
     hole = design.reducer.output_pins.hole_clearance
     offsets = sorted({*EQUIDISTANTS, offset})
-    return tuple(
-        _point(design, one, share * hole, (samples, angles, seed), known)
-        for share in HOLE_SHARES
-        for one in offsets
-    )
+    places = [(one, share * hole) for share in HOLE_SHARES for one in offsets]
+    draws = samples, angles, seed
+    # Two at a time: the tables of one are made while the gearboxes of the other are worked.
+    with ThreadPoolExecutor(2) as pool:
+        return tuple(pool.map(lambda at: _point(design, at[0], at[1], draws, known), places))
 
 
 def _point(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import threading
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 
@@ -106,9 +107,17 @@ def _warm(ensemble: Ensemble) -> ContactModel:
     return heated(drawn, ensemble.design, ensemble.temperatures)
 
 
-@functools.lru_cache(maxsize=1)
 def _yielding(design: Design, torque: float, angles: int) -> BodyCompliance:
-    """Other clearances of the same design share it."""
+    """Other clearances of the same design share it; threads that ask at once wait for one."""
+    with _one_at_a_time:
+        return _last_yielding(design, torque, angles)
+
+
+_one_at_a_time = threading.Lock()
+
+
+@functools.lru_cache(maxsize=1)
+def _last_yielding(design: Design, torque: float, angles: int) -> BodyCompliance:
     model = ContactModel.from_design(design)
     bodies = bodies_or_none(design)
     assert bodies is not None, "`make_ensemble` leaves out bodies that cannot be meshed"

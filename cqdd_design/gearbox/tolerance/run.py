@@ -22,6 +22,8 @@ Progress = Callable[[int, int], None]
 
 BLOCK = 125
 """Gearboxes worked at a time: about a third of a second on four cores."""
+FIRST = 32
+"""Those worked before the rest of the first block: whoever looks at so few has a part of it."""
 _SENSITIVITY_SHARE, _LEAST_BASE = 8, 16
 """The sensitivity's base sample is an eighth of the ensemble, because every tolerance needs it
 once more; with fewer than this many gearboxes it would say nothing and is left out."""
@@ -289,7 +291,10 @@ def _solves(ensemble: Ensemble) -> int:
 
 
 def _blocks(count: int, exchanged: tuple[str, ...]) -> list[Block]:
-    return [Block(first, min(BLOCK, count - first), exchanged) for first in range(0, count, BLOCK)]
+    few = () if exchanged else (FIRST,)
+    begins = [one for one in (0, *few, *range(BLOCK, count, BLOCK)) if one < count]
+    ends = [*begins[1:], count]
+    return [Block(b, e - b, exchanged) for b, e in zip(begins, ends, strict=True)]
 
 
 def _sensitivity(

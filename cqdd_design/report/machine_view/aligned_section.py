@@ -32,7 +32,7 @@ from cqdd_design.report.machine_view.paint import (
     stroked,
     titled,
 )
-from cqdd_design.solids.cad import MM, import_cadquery
+from cqdd_design.solids.cad import MM, import_cadquery, within
 from cqdd_design.solids.cut_plane import cut_angles, is_hatched
 from cqdd_design.solids.hidden_lines import VisibleLines
 from cqdd_design.solids.part import Part
@@ -82,12 +82,15 @@ def cut_faces(
     for station in found:
         for piece in posed(station, design, crank_angle):
             turned = piece.moved(transform(-direction))
-            x, depth, height = turned.vertices.T
+            depth = turned.vertices[:, 1]
             if depth.min() > 0.0 or depth.max() < 0.0:
                 continue
-            # The cutter slices at a height: x stays, the axis becomes y, the depth the height.
-            solid = solid_of(np.column_stack([x, height, -depth]), turned.triangles)
-            cut = CrossSection(solid.slice(0.0).to_polygons(), FillRule.Positive) ^ half
+            cut = (
+                CrossSection(
+                    solid_of(turned, _FRONT.matrix).slice(0.0).to_polygons(), FillRule.Positive
+                )
+                ^ half
+            )
             if cut.area() > _SPECK:
                 loops = tuple(np.asarray(loop) for loop in cut.simplify(1e-3).to_polygons())
                 faces.append(CutFace(station, loops, cut.area()))
@@ -109,7 +112,7 @@ def lines_behind(
             if (box.max(axis=0) < 0.0).any():
                 continue
             cut = (box.min(axis=0) < 0.0).any()
-            shapes += (turned.solid.intersect(quarter) if cut else turned.solid).Solids()
+            shapes += (within(turned.solid, quarter) if cut else turned.solid).Solids()
     lines = _FRONT.lines(shapes)
     return VisibleLines(
         tuple(line for line in lines.edges if not _on_axis(line)),

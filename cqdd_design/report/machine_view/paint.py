@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,7 +14,10 @@ from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.report.ink.svg import element, fixed, thinned
 from cqdd_design.report.machine_view.camera import Camera
 from cqdd_design.report.machine_view.surfaces import Patch
+from cqdd_design.solids.cad import MM
 from cqdd_design.solids.hidden_lines import VisibleLines
+from cqdd_design.solids.mesh import closed_mesh, picture_quality
+from cqdd_design.solids.part import Part
 from cqdd_design.solids.stations import Posed
 
 if TYPE_CHECKING:
@@ -129,17 +133,31 @@ def silhouette(pieces: Sequence[Posed], camera: Camera) -> tuple[FloatArray, ...
 
     shadows = []
     for piece in pieces:
-        solid = solid_of(piece.vertices @ camera.matrix.T, piece.triangles)
+        solid = solid_of(piece, camera.matrix)
         shadows.append(CrossSection(solid.project().to_polygons(), FillRule.Positive))
     joined = CrossSection.batch_boolean(shadows, OpType.Add).simplify(_SMALL)
     return tuple(np.asarray(loop) for loop in joined.to_polygons())
 
 
-def solid_of(vertices: FloatArray, triangles: np.ndarray) -> Manifold:
-    """A closed mesh (v, 3), (t, 3) for cuts and shadows."""
+def solid_of(piece: Posed, frame: FloatArray) -> Manifold:
+    """A piece, mm, seen in another frame for cuts and shadows.
+
+    Parameters
+    ----------
+    frame : array (3, 3)
+        Its unit vectors, in rows.
+    """
+    place = np.column_stack([piece.pose[:3, :3], piece.pose[:3, 3] * MM])
+    return _solid(piece.part).transform(frame @ place)
+
+
+@lru_cache(maxsize=512)
+def _solid(part: Part) -> Manifold:
+    """A part's mesh for pictures, in its own frame: ten screws are one solid that is moved."""
     from manifold3d import Manifold, Mesh
 
-    return Manifold(Mesh(vertices.astype(np.float32), triangles.astype(np.uint32)))
+    mesh = closed_mesh(part, picture_quality(part))
+    return Manifold(Mesh(mesh.vertices.astype(np.float32), mesh.triangles.astype(np.uint32)))
 
 
 def bounds(loops: Iterable[FloatArray]) -> tuple[FloatArray, FloatArray]:
