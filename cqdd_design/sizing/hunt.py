@@ -129,8 +129,8 @@ class Hunt:
     yielding : tuple of array, optional
         Outputs of gearboxes whose discs and ring yield over those of rigid ones, at the continuous
         and at the peak torque, of the last design that was looked at with them.
-    yielding_at : float
-        Thickness of that design's discs, m.
+    yielding_at : tuple of float
+        Thickness of that design's discs, m, and its torques, N m.
     rigid : tuple, optional
         The machine that was looked at last, and outputs of its gearboxes while nothing yields.
     calm : tuple, optional
@@ -176,7 +176,7 @@ class Hunt:
     pins: tuple[bool, ...] = (False,)
     tried: set[Goal] = field(default_factory=set)
     yielding: tuple[NDArray[np.float64], ...] | None = None
-    yielding_at: float = 0.0
+    yielding_at: tuple[float, ...] = ()
     rigid: tuple[Machine, tuple[NDArray[np.float64], ...]] | None = None
     calm: tuple[object, bool] | None = None
     solved: list[tuple[Machine, tuple[Check, ...]]] = field(default_factory=list)

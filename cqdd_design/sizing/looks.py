@@ -44,7 +44,7 @@ _SPARE = 1.02
 _WIDEST = 0.995
 """Share of the largest ring beyond which no wider one is asked for."""
 _ALIKE = 1.25
-"""Ratio of the thickness of discs up to which they are taken to yield alike."""
+"""Ratio of the thickness of discs, or of torques, up to which they are taken to yield alike."""
 _LOOKS = 12
 """At one design before the search is repeated."""
 
@@ -220,10 +220,10 @@ def _drawn(hunt: Hunt, machine: Machine) -> Drawn:
     """A few gearboxes, whose discs and ring yield as they did at another design of the hunt.
 
     The finite elements of a new geometry cost more than all else here, and what yielding changes,
-    as a share, is alike for designs of one hunt with discs of about the same thickness.
+    as a share, is alike for designs of one hunt with discs of about the same thickness and for
+    about the same torques.
     """
-    thicker = machine.design.reducer.disc_thickness / (hunt.yielding_at or math.inf)
-    new = hunt.yielding is None or not 1.0 / _ALIKE <= thicker <= _ALIKE
+    new = hunt.yielding is None or not _yield_alike(hunt.yielding_at, _yielding_at(machine))
     with ThreadPoolExecutor(1) as beside:
         if new:
             # They are asked for next, and rigid gearboxes leave Python to them.
@@ -243,11 +243,22 @@ def _drawn(hunt: Hunt, machine: Machine) -> Drawn:
     )
 
 
+def _yielding_at(machine: Machine) -> tuple[float, ...]:
+    """What of a design decides most of how its bodies yield: thickness of its discs, m, torques."""
+    asked = machine.design.requirements
+    return machine.design.reducer.disc_thickness, asked.peak_torque, asked.continuous_torque
+
+
+def _yield_alike(one: tuple[float, ...], other: tuple[float, ...]) -> bool:
+    ratios = (mine / theirs for mine, theirs in zip(one, other, strict=True))
+    return all(1.0 / _ALIKE <= ratio <= _ALIKE for ratio in ratios)
+
+
 def _calibrate(hunt: Hunt, machine: Machine, drawn: Drawn) -> None:
     """Note what yielding discs and ring change, where a machine was looked at without them too."""
     if hunt.rigid is None or hunt.rigid[0].design != machine.design:
         return
-    hunt.yielding_at = machine.design.reducer.disc_thickness
+    hunt.yielding_at = _yielding_at(machine)
     hunt.yielding = tuple(
         _high(one) / np.where(other, other, 1.0)
         for one, other in zip(drawn, hunt.rigid[1], strict=True)

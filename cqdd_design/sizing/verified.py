@@ -327,7 +327,7 @@ def _verified(
 
 def _aside(hunt: Hunt) -> Hunt:
     """A hunt that knows as much, and teaches this one nothing."""
-    known = "solved", "known", "answered", "too_weak"
+    known = "solved", "known", "answered", "too_weak", "ends_bear"
     return replace(hunt, **{name: copy(getattr(hunt, name)) for name in known})
 
 

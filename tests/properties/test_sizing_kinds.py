@@ -212,7 +212,8 @@ def test_a_backlash_beyond_what_is_asked_widens_the_ring_in_proportion() -> None
 def test_what_yields_is_noted_as_a_share_of_what_does_not() -> None:
     hunt = hunt_for(asked(10, 30.0, 4.0, 1000.0))
     reducer = SimpleNamespace(disc_thickness=6e-3)
-    machine = SimpleNamespace(design=SimpleNamespace(reducer=reducer))
+    asks = SimpleNamespace(peak_torque=30.0, continuous_torque=4.0)
+    machine = SimpleNamespace(design=SimpleNamespace(reducer=reducer, requirements=asks))
     drawn = [SimpleNamespace(values=np.full((4, 2), more)) for more in (3.0, 6.0)]
     hunt.rigid = machine, (np.array([2.0, 4.0]), np.array([2.0, 0.0]))  # type: ignore[assignment]
     _calibrate(hunt, SimpleNamespace(design="another"), drawn)  # type: ignore[arg-type]
@@ -220,6 +221,7 @@ def test_what_yields_is_noted_as_a_share_of_what_does_not() -> None:
     _calibrate(hunt, machine, drawn)  # type: ignore[arg-type]
     assert hunt.yielding is not None
     assert [one.tolist() for one in hunt.yielding] == [[1.5, 0.75], [3.0, 6.0]]
+    assert hunt.yielding_at == (6e-3, 30.0, 4.0)
 
 
 @pytest.mark.parametrize(("binding", "step"), [(0, 0.0), (2, 1e-6)])
@@ -504,8 +506,8 @@ def test_in_the_end_only_known_cam_bearings_are_tried(monkeypatch: pytest.Monkey
     assert len(set(tried)) > 5
 
 
-def test_discs_of_another_thickness_yield_otherwise(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The finite elements of one design serve others with discs of about the same thickness."""
+def test_discs_of_another_thickness_or_load_yield_otherwise(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The finite elements of one design serve others with about the same discs and torques."""
     hunt = hunt_for(asked(10, 40.0, 4.0, 1000.0))
     bodies: list[bool] = []
 
@@ -513,15 +515,20 @@ def test_discs_of_another_thickness_yield_otherwise(monkeypatch: pytest.MonkeyPa
         bodies.append(not rigid)
         return Drawn(*(SimpleNamespace(values=np.ones((2, 3))) for _ in range(2)))  # type: ignore[arg-type]
 
-    def machine(thickness: float) -> Any:
+    def machine(thickness: float, peak: float = 40.0, lasting: float = 10.0) -> Any:
         reducer = SimpleNamespace(disc_thickness=thickness)
-        return SimpleNamespace(design=SimpleNamespace(reducer=reducer, number=len(bodies)))
+        asked = SimpleNamespace(peak_torque=peak, continuous_torque=lasting)
+        return SimpleNamespace(design=SimpleNamespace(reducer=reducer, requirements=asked))
 
     monkeypatch.setattr("cqdd_design.sizing.looks.drawn_gearboxes", drawn)
     monkeypatch.setattr("cqdd_design.sizing.looks.replace", lambda one, **_: one)
     for thickness, told in ((6e-3, True), (7e-3, False), (9e-3, True), (8e-3, False)):
         bodies.clear()
         _drawn(hunt, machine(thickness))
+        assert any(bodies) is told
+    for torques, told in (((33.0, 9.0), False), ((33.0, 7.5), True), ((25.0, 7.0), True)):
+        bodies.clear()
+        _drawn(hunt, machine(8e-3, *torques))
         assert any(bodies) is told
 
 
