@@ -506,7 +506,9 @@ def test_in_the_end_only_known_cam_bearings_are_tried(monkeypatch: pytest.Monkey
     assert len(set(tried)) > 5
 
 
-def test_discs_of_another_thickness_or_load_yield_otherwise(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_discs_of_another_thickness_or_load_yield_otherwise(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     """The finite elements of one design serve others with about the same discs and torques."""
     hunt = hunt_for(asked(10, 40.0, 4.0, 1000.0))
     bodies: list[bool] = []
