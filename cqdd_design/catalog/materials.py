@@ -111,14 +111,15 @@ class Material:
 
         A range or a least value as printed. What is tempered to one value gets a band above it:
         strengths of the same row are counted on, so that less will not do. What comes as it is
-        delivered is only told.
+        delivered is only told. Standards of wrought aluminium hold a temper by its strengths;
+        hardness stands in them, where it does, as one figure for information (EN 485-2).
 
         Examples
         --------
         >>> find_material("AISI 4140 Q&T 540C").drawn_hardness
         '335 to 370 HB'
         >>> find_material("7075-T6").drawn_hardness
-        'about 150 HB'
+        'about 150 HB, no range in its standard'
         """
         text = re.sub(r"\(.*?\)|@\S+|~", "", self.hardness).strip()
         if not text:
@@ -130,7 +131,8 @@ class Material:
         value, _, scale = text.partition(" ")
         if "tempered" in self.treatment or "tempered" in self.drawing_note:
             return f"{value} to {math.ceil(_BAND * int(value) / 5.0) * 5} {scale}"
-        return f"about {text}"
+        aged = self.treatment == "precipitation-hardened"
+        return f"about {text}{', no range in its standard' if aged else ''}"
 
     @property
     def rockwell_hardness(self) -> float | None:

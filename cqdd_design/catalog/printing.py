@@ -24,6 +24,9 @@ class PrintedMaterial:
         Of one line or spot, m; 0 where moulded.
     least_wall : float
         m.
+    least_error, error_share : float or None
+        To either side of a length, m, and as a share of it: the greater counts. None where moulded,
+        since the tool decides.
     source : str
         Where the row comes from.
     """
@@ -33,7 +36,23 @@ class PrintedMaterial:
     shrinkage: float = column("shrinkage_percent", 1e-2)
     line_width: float = column("line_width_mm", 1e-3)
     least_wall: float = column("least_wall_mm", 1e-3)
+    least_error: float | None = column("accuracy_mm", 1e-3)
+    error_share: float | None = column("accuracy_percent", 1e-2)
     source: str = column("source")
+
+    def accuracy(self, length: float) -> float | None:
+        """To either side of a length (m) as it comes off the machine, m; None where moulded.
+
+        Examples
+        --------
+        >>> round(1e3 * printed_materials()["PA12 SLS"].accuracy(25e-3), 9)
+        0.13
+        >>> printed_materials()["PA66"].accuracy(25e-3) is None
+        True
+        """
+        if self.least_error is None or self.error_share is None:
+            return None
+        return max(self.least_error, self.error_share * length)
 
 
 @dataclass(frozen=True)

@@ -40,6 +40,8 @@ class RotorOverhang:
     arm : float
         From the middle of the magnets up to the middle of the shaft's lower bearing, m; negative
         where they stand above it.
+    span : float
+        From there up to the middle of the upper bearing, m.
     moment_arm : float
         The greatest arm of the force at the stub between hub and bearing, m.
     settled : Settled
@@ -50,8 +52,18 @@ class RotorOverhang:
     off_centre: float
     mass: float
     arm: float
+    span: float
     moment_arm: float
     settled: Settled
+
+    @property
+    def on_bearings(self) -> tuple[float, float]:
+        """Sizes of what the force on the rotor puts on the lower and the upper bearing, N.
+
+        Beyond the lower one it is a lever: the upper one holds its end down.
+        """
+        share = self.arm / self.span
+        return abs(1.0 + share) * self.settled.force, abs(share) * self.settled.force
 
 
 @dataclass(frozen=True)
@@ -115,6 +127,7 @@ def rotor_overhang(machine: Machine) -> RotorOverhang:
         off_centre=off,
         mass=mass,
         arm=arm,
+        span=span,
         moment_arm=max(abs(arm), abs(min(motor.hub_top, edges[0]) - at)),
         settled=settled(rate, off, mass * _GRAVITY + unbalance, give, gap),
     )

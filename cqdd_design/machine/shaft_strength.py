@@ -23,6 +23,9 @@ from cqdd_design.solids.layers import Layer
 from cqdd_design.solids.layout import PackLayout, ShaftLayout
 from cqdd_design.solids.rotating import eccentric_shaft
 
+_BETWEEN = 12
+"""Angles between a force that turns and one that stands still."""
+
 
 @dataclass(frozen=True)
 class ShaftStrength:
@@ -155,7 +158,7 @@ def carried_shares(at: FloatArray, edges: tuple[float, float]) -> tuple[FloatArr
 
 
 def support_loads(machine: Machine, loads: PackLoads) -> FloatArray:
-    """Sizes of the forces on the lower and the upper support bearing, (C, A, 2), N.
+    """Sizes of what the discs put on the lower and the upper support bearing, (C, A, 2), N.
 
     Raises
     ------
@@ -165,6 +168,34 @@ def support_loads(machine: Machine, loads: PackLoads) -> FloatArray:
     layout = machine.layout
     shares = carried_shares(disc_heights(layout.pack), knife_edges(layout.shaft))
     return np.abs(loads.on_shaft @ np.column_stack(shares))
+
+
+def with_still_force(turning: FloatArray, still: FloatArray) -> FloatArray:
+    """Sizes of forces that turn with the crank, and others that stand still, together, N.
+
+    Both meet at every angle alike, so that angles A of the first stand for all of a turn.
+
+    Parameters
+    ----------
+    turning : array (C, A, B)
+        Sizes on B bearings, N.
+    still : array (B,)
+        N.
+
+    Returns
+    -------
+    array (C, A * 12, B)
+        At twelve even angles between the two.
+
+    Examples
+    --------
+    >>> both = with_still_force(np.full((1, 1, 1), 300.0), np.array([100.0]))
+    >>> round(float(both.max()), 9), round(float(np.mean(both**2)) ** 0.5, 1)
+    (400.0, 316.2)
+    """
+    towards = np.exp(2j * np.pi * np.arange(_BETWEEN) / _BETWEEN)[:, None]
+    both = np.abs(turning[:, :, None, :] + towards * still)
+    return np.asarray(both.reshape(len(turning), -1, len(still)))
 
 
 def output_loads(machine: Machine, loads: PackLoads, external: float = 1.0) -> OutputLoad:

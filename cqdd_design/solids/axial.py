@@ -16,7 +16,7 @@ from cqdd_design.catalog.bearings import width_tolerance
 from cqdd_design.catalog.fits import general_tolerance
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.errors import DesignError
-from cqdd_design.solids.features.flat import THICKNESS_TOLERANCE
+from cqdd_design.solids.features.flat import thickness_limits
 from cqdd_design.solids.features.holes import FittedHole
 from cqdd_design.solids.features.kinds import Shoulder
 from cqdd_design.solids.features.making import BEARING_FACE
@@ -199,7 +199,8 @@ def _shaft(named: Mapping[str, Part], layout: Layout) -> Iterator[Length]:
     support, housing, ring = layout.shaft.support, named["housing"], named["ring"]
     yield _between(housing, "ledge of the ring", "shoulder of the shaft bearing")
     thickness = ring.shape.top - ring.shape.bottom
-    yield Length("ring", "thickness", thickness, -THICKNESS_TOLERANCE, 0.0, ring.material, "ring")
+    limits = thickness_limits(ring.material, thickness)
+    yield Length("ring", "thickness", thickness, *limits, ring.material, "ring")
     yield _between(named["ring clamp"], "face under the output bearing", "face on the ring")
     yield _between(
         named["carrier plate"], "shoulder of the shaft bearing", "shoulder of the output bearing"
@@ -243,12 +244,12 @@ def _discs(named: Mapping[str, Part], layout: Layout) -> Iterator[Length]:
     pack = layout.pack
     yield from _plate_to_cap(named, layout)
     material = (named.get("disc") or named["disc 1"]).material
+    thinnest, thickest = thickness_limits(material, pack.disc_thickness)
+    taken = -pack.disc_thickness, -thickest, -thinnest
     if pack.disc_count == 1:
-        yield Length("disc", "thickness", -pack.disc_thickness, 0.0, THICKNESS_TOLERANCE, material,
-                     "disc")  # fmt: skip
+        yield Length("disc", "thickness", *taken, material, "disc")
         return
-    yield Length("discs", "thickness, half of the first and the last", -pack.disc_thickness,
-                 0.0, THICKNESS_TOLERANCE, material, "disc")  # fmt: skip
+    yield Length("discs", "thickness, half of the first and the last", *taken, material, "disc")
     yield _width("cam bearings", pack.cam, "disc")
     yield Length("discs", "places of the cam bearings in them", 0.0, -2.0 * BEARING_FACE,
                  2.0 * BEARING_FACE, material, "disc")  # fmt: skip

@@ -172,7 +172,7 @@ def lay_out_carrier(
         bearing_top=bearing_top,
         nut_top=nut_top,
         plate_top=plate_top,
-        nut_radius=0.5 * output.bearing.bore_diameter - 0.25 * unit,
+        nut_radius=0.5 * _whole_tenth(output.bearing.bore_diameter - 0.5 * unit),
         nut_slots_bottom=nut_top - NUT_SLOTS * (nut_top - bearing_top),
         bolt_thread=bolt,
         bolt_circle_radius=bolt_circle,
@@ -185,6 +185,17 @@ def lay_out_carrier(
         shaft_shim=shims,
         output_shim=output_shims(output),
     )
+
+
+def _whole_tenth(diameter: float) -> float:
+    """Down to a tenth of a millimetre, m: taps and gauges are made for a thread's diameter.
+
+    Examples
+    --------
+    >>> round(1e3 * _whole_tenth(49.5424e-3), 9)
+    49.5
+    """
+    return round(math.floor(1e4 * diameter + 1e-6) * 1e-4, 9)
 
 
 def _lay_out_columns(

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 
 from cqdd_design.catalog.bearings import Bearing
-from cqdd_design.errors import CatalogError, ContactError, GeometryError
+from cqdd_design.errors import CatalogError, ContactError, DesignError, GeometryError
 from cqdd_design.gearbox.bearing_life import basic_rating_life_hours, life_exponent
 from cqdd_design.gearbox.cam_bearing import rolling_element
 from cqdd_design.gearbox.checks.allowables import STATIC_SAFETY, shaft_limit_peak
@@ -22,10 +23,12 @@ from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine
 from cqdd_design.machine.carrier_bearing import bearing_for_loads
+from cqdd_design.machine.rotor_overhang import rotor_overhang
 from cqdd_design.machine.shaft_strength import (
     output_loads,
     shaft_strength,
     support_loads,
+    with_still_force,
 )
 from cqdd_design.results import Check
 
@@ -47,10 +50,11 @@ def shaft_lines(machine: Machine) -> tuple[Check, ...]:
     names = (*_AT_PEAK, *_OVER_DUTY)
     try:
         peak, duty = machine.peak_pack, machine.life.pack
+        rotor = _rotor(machine)
         return (
             *_strength(machine, peak, duty),
-            _support_static(machine, peak),
-            _support_life(machine, duty),
+            _support_static(machine, peak, rotor),
+            _support_life(machine, duty, rotor),
             *_output(machine, peak, duty),
         )
     except (CatalogError, ContactError, GeometryError) as error:
@@ -95,9 +99,33 @@ def _strength(machine: Machine, peak: PackLoads, duty: PackLoads) -> tuple[Check
     )
 
 
-def _support_static(machine: Machine, peak: PackLoads) -> Check:
+class _Rotor(NamedTuple):
+    """What hangs on the stub puts on the shaft's bearings."""
+
+    on_bearings: FloatArray
+    """On the lower and the upper one, (2,), N; zero where it is not known."""
+    missing: str = ""
+    """Why it is not."""
+
+    def told(self, place: int) -> str:
+        return self.missing or f"{self.on_bearings[place]:.0f} N of it from the rotor"
+
+
+def _rotor(machine: Machine) -> _Rotor:
+    try:
+        on_bearings = rotor_overhang(machine).on_bearings
+    except (CatalogError, DesignError):
+        return _Rotor(np.zeros(2), "without the rotor, of which SHAFT-ROTOR-GAP knows nothing")
+    if math.isinf(max(on_bearings)):
+        return _Rotor(np.zeros(2), "without the rotor, whose pull is not held (SHAFT-ROTOR-GAP)")
+    return _Rotor(np.array(on_bearings))
+
+
+def _support_static(machine: Machine, peak: PackLoads, rotor: _Rotor) -> Check:
     asked, chosen = machine.design.requirements, machine.seats[0]
-    most, seat = float(support_loads(machine, peak).max()), chosen.bearing
+    discs, seat = support_loads(machine, peak).max(axis=(0, 1)), chosen.bearing
+    both = discs + rotor.on_bearings
+    most = float(both.max())
     if chosen.source == "bush" or seat.static_rating is None:
         told = f"{most:.0f} N on {seat.designation}: its rating is not known"
         return build_check(
@@ -105,21 +133,24 @@ def _support_static(machine: Machine, peak: PackLoads) -> Check:
             "leave room for a bearing (a wider cam bearing)",
         )  # fmt: skip
     safety = seat.static_rating / most
+    # Only the discs' forces are in proportion to the torque.
+    share = float(((seat.static_rating / STATIC_SAFETY - rotor.on_bearings) / discs).min())
     return build_check(
         "SUPPORT-STATIC",
         safety,
         STATIC_SAFETY,
         f"{seat.designation}: {seat.static_rating:.0f} N/{most:.1f} N = {safety:.3f} at "
-        f"{asked.peak_torque:g} N*m",
-        f"{_WIDER}; or {lower_torque(asked.peak_torque, safety / STATIC_SAFETY)}",
+        f"{asked.peak_torque:g} N*m, {rotor.told(int(both.argmax()))}",
+        f"{_WIDER}; or {lower_torque(asked.peak_torque, share)}" if share > 0.0 else _WIDER,
     )
 
 
-def _support_life(machine: Machine, duty: PackLoads) -> Check:
+def _support_life(machine: Machine, duty: PackLoads, rotor: _Rotor) -> Check:
     chosen, ratio = machine.seats[0], machine.design.reducer.ratio
     # The lower one stands in the housing, the upper one turns back with the carrier.
     slip = np.array([ratio, ratio + 1.0])
-    loads = support_loads(machine, duty)
+    # The discs' forces turn with the crank, that on the rotor stands still.
+    loads = with_still_force(support_loads(machine, duty), rotor.on_bearings)
     known = chosen.source != "bush"
     return _life("SUPPORT-LIFE", machine, chosen.bearing if known else None, loads, slip, _WIDER)
 

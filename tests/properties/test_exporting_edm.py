@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 import re
+from datetime import UTC, datetime
 
 import numpy as np
 import pytest
@@ -227,10 +228,14 @@ def test_a_pdf_is_one_whole_page(package):
     assert data[begin + length :].startswith(b"\nendstream")
 
 
-def test_a_date_is_that_of_source_date_epoch_or_none(paper, monkeypatch):
+def test_a_date_is_that_of_source_date_epoch_or_of_today(paper, monkeypatch):
     facts = facts_of(flat_parts(resolve(paper))[1], resolve(paper))
     monkeypatch.delenv("SOURCE_DATE_EPOCH", raising=False)
-    assert b"CreationDate" not in pdf_bytes(draw_sheet(facts), "x")
+    days = [datetime.now(UTC)]
+    canvas = draw_sheet(facts)
+    days.append(datetime.now(UTC))
+    (on_it,) = {f"{day:%Y-%m-%d}" for day in days} & {label.text for label in canvas.labels}
+    assert f"/CreationDate (D:{on_it.replace('-', '')}".encode() in pdf_bytes(canvas, "x")
     monkeypatch.setenv("SOURCE_DATE_EPOCH", "86400")
     canvas = draw_sheet(facts)
     assert b"/CreationDate (D:19700102000000Z)" in pdf_bytes(canvas, "x")

@@ -12,11 +12,11 @@ from xml.etree import ElementTree
 import ezdxf
 import numpy as np
 import pytest
-from legible import assert_legible, faults
+from legible import assert_legible, crossed, faults, segments
 
 from cqdd_design.design import load_design
 from cqdd_design.errors import CatalogError
-from cqdd_design.exporting.edm.cut_facts import facts_of
+from cqdd_design.exporting.edm.cut_facts import _WALL_SQUARENESS, facts_of, zone_text
 from cqdd_design.exporting.edm.dxf import add_classes, reproducible
 from cqdd_design.exporting.edm.flat_parts import flat_parts
 from cqdd_design.exporting.sheets import part_sheet
@@ -244,14 +244,22 @@ def test_no_wire_and_no_grindstone_makes_a_printed_disc(paper_design_file):
     design = load_design(paper_design_file.with_name("printed-13.toml"))
     machine = resolve(design)
     for flat in flat_parts(machine):
-        canvas = draw_sheet(facts_of(flat, machine))
+        facts = facts_of(flat, machine)
+        canvas = draw_sheet(facts)
         texts = texts_of(svg_text(canvas, flat.label))
         assert_legible(canvas)
+        for label in canvas.labels:
+            if re.match(r"\u00d8.* N7", label.text):
+                assert not len(crossed(label, segments(canvas, 0.0))), label.text
         words = " ".join(texts)
         assert "printed, FDM" in words
         assert "export --to print" in words
-        for of_metal in ("wire", "ground", "recast", "CUTS IN ORDER", "Ra 0.4"):
+        for of_metal in ("wire", "ground", "recast", "CUTS IN ORDER", "Ra 0.4", "+0/-0.02"):
             assert of_metal not in words, of_metal
+        # A printer keeps 0.127 mm or 0.15 %; no wall is squarer than its contour is true.
+        assert "25 \u00b10.13" in words
+        assert texts.count(zone_text(facts.zones.profile)) == 1
+        assert zone_text(_WALL_SQUARENESS) not in texts
     housing = next(part for part in machine.parts if part.name == "housing")
     assert "as printed, FDM, where not marked" in texts_of(svg_text(drawn(housing, machine), ""))
     assert (

@@ -18,7 +18,7 @@ from cqdd_design.exporting.edm.passes import WirePass, blank_side, contour_times
 from cqdd_design.exporting.edm.seats import Seat
 from cqdd_design.exporting.edm.wire_path import WirePath, wire_paths
 from cqdd_design.exporting.options import DEFAULTS, ExportOptions
-from cqdd_design.solids.features.flat import cut_zone, tooth_deviation
+from cqdd_design.solids.features.flat import cut_zone, thickness_limits, tooth_deviation
 
 if TYPE_CHECKING:
     from cqdd_design.design import Design
@@ -29,7 +29,7 @@ GROUND_FLATNESS = 5e-6
 """Faces of a plate from an everyday surface grinder, m."""
 GROUND_PARALLELISM = 10e-6
 """Both faces of a plate from an everyday surface grinder, m."""
-WALL_SQUARENESS = 5e-6
+_WALL_SQUARENESS = 5e-6
 """Of the cut walls to the lower face, m: what is left of taper after skim cuts."""
 CUT_FINISH, FACE_FINISH = "Ra 0.4", "Ra 0.8"
 """After skim cuts, and ground, um."""
@@ -124,6 +124,19 @@ class CutFacts:
     def moulded(self) -> str:
         """How it is printed or moulded; empty of what a wire cuts."""
         return made_how(self.flat.material, "")
+
+    @property
+    def squareness(self) -> float:
+        """Of the walls to the lower face, m; of a plastic no less than the zone of its contour."""
+        return self.zones.profile if self.moulded else _WALL_SQUARENESS
+
+    @property
+    def thickness_text(self) -> str:
+        """Limits of the thickness behind it, as ``+0/-0.02`` or ``±0.13``."""
+        lower, upper = thickness_limits(self.flat.material, self.flat.thickness)
+        if upper == -lower:
+            return f"\u00b1{zone_text(upper)}"
+        return f"+{zone_text(upper)}/-{zone_text(-lower)}"
 
     @property
     def quantity_text(self) -> str:

@@ -11,6 +11,7 @@ import hashlib
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 from xml.sax.saxutils import escape
 
@@ -219,7 +220,7 @@ def _svg_label(label: Label, height: float) -> str:
 
 
 def pdf_bytes(canvas: Canvas, title: str) -> bytes:
-    """Return a sheet as a PDF of one page; its date is SOURCE_DATE_EPOCH or none."""
+    """Return a sheet as a PDF of one page; its date is that of the sheet."""
     lines = [f"{_POINT:.6f} 0 0 {_POINT:.6f} 0 0 cm 1 J 1 j"]
     for pen, steps in sorted(canvas.strokes.items()):
         lines += [f"{pen:g} w", *steps, "S"]
@@ -250,14 +251,12 @@ def pdf_bytes(canvas: Canvas, title: str) -> bytes:
 
 
 def sheet_date() -> str:
-    """Day of SOURCE_DATE_EPOCH, or nothing: a date of today would change the bytes."""
-    moment = source_date()
-    return moment.strftime("%Y-%m-%d") if moment else ""
+    """Day on which a sheet is issued (ISO 7200): that of SOURCE_DATE_EPOCH, else today's, UTC."""
+    return (source_date() or datetime.now(UTC)).strftime("%Y-%m-%d")
 
 
 def _pdf_date() -> str:
-    day = sheet_date().replace("-", "")
-    return f" /CreationDate (D:{day}000000Z)" if day else ""
+    return f" /CreationDate (D:{sheet_date().replace('-', '')}000000Z)"
 
 
 def _pdf_string(text: str) -> str:

@@ -22,7 +22,6 @@ from cqdd_design.exporting.edm.cut_facts import (
     FACE_FINISH,
     GROUND_FLATNESS,
     GROUND_PARALLELISM,
-    WALL_SQUARENESS,
     CutFacts,
     zone_text,
 )
@@ -36,7 +35,6 @@ from cqdd_design.exporting.sheets.lettering import text_width
 from cqdd_design.exporting.sheets.title_block import SCALES
 from cqdd_design.exporting.sheets.wording import circle_row
 from cqdd_design.geometry.contours import Circle, as_complex
-from cqdd_design.solids.features.flat import THICKNESS_TOLERANCE
 from cqdd_design.solids.features.holes import BoltCircle
 
 if TYPE_CHECKING:
@@ -112,26 +110,26 @@ def _holes(sheet: SheetDrawing, facts: CutFacts, holes: list[Circle]) -> None:
         along = cmath.exp(1j * cmath.phase(complex(*hole.centre)))
         sheet.line(centre - arm * along, centre + arm * along, AXIS)
     output, columns = _by_use(facts, holes)
-    elbow = complex(FRONT.real - 52.0, FRONT.imag + MOST_REACH + 20.0)
-    for alike, toward, at in ((output, 125.0, elbow), (columns, 160.0, elbow - 24.0j)):
+    left = complex(FRONT.real - 98.0, FRONT.imag + MOST_REACH + 20.0)
+    for alike, toward, corner in ((output, 125.0, left), (columns, 160.0, left - 24.0j)):
         if not alike:
             continue
         places = np.angle(as_complex([hole.centre for hole in alike]))
         named = int(np.abs(np.angle(np.exp(1j * (places - math.radians(toward))))).argmin())
         hole = alike[named]
-        centre = FRONT + factor * complex(*hole.centre)
-        target = centre + factor * hole.radius * (at - centre) / abs(at - centre)
         words = f"{2.0 * _MM * hole.radius:.4g} \u00b1{zone_text(zones.hole_diameter)}"
         words = f"{len(alike)} \u00d7 \u00d8{words}"
-        # The shelf is as long as the frames under it, so that the leader runs past them.
-        width = max(text_width(words, TEXT) + 3.0, 46.0)
-        sheet.callout(target, at, words, -width)
-        zone = f"\u00d8{zone_text(zones.hole_position)} CZ"
-        corner = at - width
-        _simultaneous(sheet, corner - 7.0j, "position", zone)
         angles = tuple(places.tolist())
-        circle = BoltCircle("holes", facts.flat.reference_radius, angles)
-        _row(sheet, corner - 12.0j, circle_row(circle))
+        row = circle_row(BoltCircle("holes", facts.flat.reference_radius, angles))
+        # The shelf is as long as what stands under it, so that the leader runs past that.
+        under = sum(cell.size[0] + 1.6 for cell in row)
+        elbow = corner + max(text_width(words, TEXT) + 3.0, 46.0, under)
+        centre = FRONT + factor * complex(*hole.centre)
+        target = centre + factor * hole.radius * (elbow - centre) / abs(elbow - centre)
+        sheet.callout(target, elbow, words, (corner - elbow).real)
+        zone = f"\u00d8{zone_text(zones.hole_position)} CZ"
+        _simultaneous(sheet, corner - 7.0j, "position", zone)
+        _row(sheet, corner - 12.0j, row)
 
 
 def _row(sheet: SheetDrawing, corner: complex, cells: Row) -> None:
@@ -186,7 +184,7 @@ def _profile_callout(sheet: SheetDrawing, facts: CutFacts) -> None:
         angles = tuple(2.0 * math.pi * i / teeth for i in range(teeth))
         on = BoltCircle("teeth", facts.flat.reference_radius, angles)
         _row(sheet, frame - 5.0j, (Words("teeth"), *circle_row(on)))
-    sheet.tolerance(frame + wide + 2.0, "perpendicularity", zone_text(WALL_SQUARENESS), ["B"])
+    sheet.tolerance(frame + wide + 2.0, "perpendicularity", zone_text(facts.squareness), ["B"])
 
 
 def _simultaneous(sheet: SheetDrawing, corner: complex, symbol: str, zone: str) -> float:
@@ -236,7 +234,7 @@ def _section(sheet: SheetDrawing, facts: CutFacts) -> None:
     sheet.line(left - 6.0, left + wide + 6.0, AXIS)
     title = "A-A"
     sheet.text(SECTION - 0.5 * text_width(title, 3.5) + 1j * (MOST_REACH + 24.0), title, 3.5)
-    words = f"<> +0/-{zone_text(THICKNESS_TOLERANCE)}"
+    words = f"<> {facts.thickness_text}"
     sheet.linear(left + 1j * (high + 8.0), left + 1j * high, left + wide + 1j * high, 0.0, words)
     _diameters(sheet, facts, left, wide)
     datum = left + 0.5j * factor * (walls[-1] + walls[-2])
@@ -262,7 +260,11 @@ def _crossings(facts: CutFacts) -> list[float]:
 
 
 def _diameters(sheet: SheetDrawing, facts: CutFacts, left: complex, wide: float) -> None:
-    """Diameters beside the section, the smallest nearest."""
+    """Diameters beside the section, the smallest nearest.
+
+    One whose words are longer than itself stands alone on the other side, where no line of a larger
+    one runs through them.
+    """
     factor, seats = _MM * sheet.scale, facts.seat_by_contour
     rows: list[tuple[float, str]] = []
     for number, contour in enumerate(facts.flat.contours):
@@ -275,15 +277,21 @@ def _diameters(sheet: SheetDrawing, facts: CutFacts, left: complex, wide: float)
             rows.append((2.0 * float(radii.max()), _seat_words(seats.get(number))))
             continue
         rows += [(2.0 * float(radii.min()), "(%%c<>)"), (2.0 * float(radii.max()), "(%%c<>)")]
-    right = left + wide
-    for place, (diameter, words) in enumerate(sorted(rows)):
+    right, place = left + wide, 0
+    for diameter, words in sorted(rows):
         half = 0.5 * factor * diameter
-        base = right + 9.0 + 8.0 * place
-        sheet.linear(base, right - 1j * half, right + 1j * half, 90.0, words)
-        if (place == 0 and "N7" in words) or (
+        said = text_width(words.replace("%%c<>", f"\u00d8{_MM * diameter:.6g}"), TEXT)
+        if said > 2.0 * half and diameter == min(rows)[0]:
+            edge, base = left, left - 9.0
+        else:
+            edge, base = right, right + 9.0 + 8.0 * place
+            place += 1
+        sheet.linear(base, edge - 1j * half, edge + 1j * half, 90.0, words)
+        if (diameter == min(rows)[0] and "N7" in words) or (
             facts.flat.label == "ring" and diameter == max(rows)[0]
         ):
-            sheet.datum(base - 1j * half - 2.0j, -1j, "A")
+            # The letter's box stands below the words too.
+            sheet.datum(base - 1j * max(half + 2.0, 0.5 * said - 3.5), -1j, "A")
 
 
 def _seat_words(seat: Seat | None) -> str:

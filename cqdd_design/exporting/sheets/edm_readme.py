@@ -11,7 +11,6 @@ from cqdd_design.exporting.edm.cut_facts import (
     FACE_FINISH,
     GROUND_FLATNESS,
     GROUND_PARALLELISM,
-    WALL_SQUARENESS,
     zone_text,
 )
 from cqdd_design.exporting.edm.passes import (
@@ -23,7 +22,6 @@ from cqdd_design.exporting.edm.passes import (
 )
 from cqdd_design.exporting.edm.wire_path import contour_name, contour_size
 from cqdd_design.geometry.columns import has_columns
-from cqdd_design.solids.features.flat import THICKNESS_TOLERANCE
 from cqdd_design.version import __version__
 
 if TYPE_CHECKING:
@@ -134,7 +132,8 @@ def _part_lines(parts: Sequence[CutFacts]) -> list[str]:
             f"{facts.design.name}-{flat.label}.dxf",
             [
                 f"Quantity {flat.quantity}, plate {_MM * flat.thickness:g} mm thick "
-                f"(+0/-{zone_text(THICKNESS_TOLERANCE)}), {1e3 * facts.mass:.1f} g each.",
+                f"({facts.thickness_text.replace(chr(0xB1), '+-')}), "
+                f"{1e3 * facts.mass:.1f} g each.",
                 f"Material {flat.material}: {facts.heat_treatment}; hardness {facts.hardness}.",
                 *facts.remarks,
                 f"Contour as written, read back and measured: {facts.fit_text[0]}; "
@@ -202,9 +201,10 @@ def _tolerances(parts: Sequence[CutFacts]) -> list[str]:
             f"{_MM * seat.middle:.4f}, wire shifted {_MM * seat.shift:+.4f} mm into the waste."
             for seat in facts.seats
         ]
+    square = zone_text(max(facts.squareness for facts in parts))
     return [
         *said,
-        f"Walls square to the lower face within {zone_text(WALL_SQUARENESS)}; faces flat within "
+        f"Walls square to the lower face within {square}; faces flat within "
         f"{zone_text(GROUND_FLATNESS)} and parallel within {zone_text(GROUND_PARALLELISM)}.",
         f"Walls {CUT_FINISH}, faces {FACE_FINISH}; no recast layer after the last skim cut.",
     ]

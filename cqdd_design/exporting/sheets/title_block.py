@@ -72,7 +72,7 @@ def _common(sheet: SheetDrawing, design: Design) -> list[Field]:
     return [
         ("made by", f"cqdd-design {__version__}", 40.0),
         ("revision (of the design)", design.sha256[:12], 44.0),
-        ("date", sheet_date() or "-", 30.0),
+        ("date", sheet_date(), 30.0),
         ("scale", scale_words(sheet.scale), 22.0),
         ("sheet", f"1 / 1, {sheet.paper.name}", 22.0),
         ("projection", "", 22.0),

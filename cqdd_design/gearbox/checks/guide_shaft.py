@@ -42,9 +42,11 @@ ROWS = (
         "Support bearings of the shaft, static safety at peak torque",
         "",
         "min",
-        f"C0/P >= {limits.STATIC_SAFETY:g}, P from the forces of all discs on the shaft",
-        "The discs' forces are a couple that its two bearings hold; beyond C0 they take dents. "
-        "They are chosen by the room that the cam bearing's bore leaves.",
+        f"C0/P >= {limits.STATIC_SAFETY:g}, P from the forces of all discs on the shaft and of the "
+        "rotor on its stub",
+        "The discs' forces are a couple that its two bearings hold, and the motor's rotor pulls "
+        "at a lever on them; beyond C0 they take dents. They are chosen by the room that the cam "
+        "bearing's bore leaves.",
         f"ISO 76:2006; {_STATICS}",
         basis=_EQUILIBRIUM,
     ),

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+from cqdd_design.catalog.fits import general_tolerance
+from cqdd_design.catalog.printing import printed_materials
 from cqdd_design.design import Design
 from cqdd_design.design.actuator import Tolerances
 from cqdd_design.geometry.disc import hole_centres, hole_diameter
@@ -19,7 +21,27 @@ SIGMAS = 6.0
 _NORMAL_HALF, _EVEN_HALF = 2.0, math.sqrt(3.0)
 """Standard deviations to either side that a zone of what wire cuts holds."""
 THICKNESS_TOLERANCE = 20e-6
-"""Of discs and ring below nominal, m: they must not grow into the gaps beside them."""
+"""Of ground discs and rings below nominal, m: they must not grow into the gaps beside them."""
+
+
+def thickness_limits(material: str, thickness: float) -> tuple[float, float]:
+    """Lower and upper deviation of the thickness of a disc or ring, m.
+
+    Plates are ground. Plastics stay as the machine leaves them to either side, or within general
+    tolerances where they are moulded.
+
+    Examples
+    --------
+    >>> thickness_limits("7075-T6", 8e-3)
+    (-2e-05, 0.0)
+    >>> [round(1e3 * off, 9) for off in thickness_limits("PLA", 8e-3)]
+    [-0.13, 0.13]
+    """
+    plastic = printed_materials().get(material)
+    if plastic is None:
+        return -THICKNESS_TOLERANCE, 0.0
+    off = plastic.accuracy(thickness) or general_tolerance(thickness)
+    return -off, off
 
 
 def cut_zone(tolerances: Tolerances, deviation: float) -> float:
