@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -57,18 +58,20 @@ def drawn_gearboxes(
     # Greatest loads alone need the fewest angles.
     fewest = PER_TOOTH[1] * ratio * (ratio + 1)
     at_peak = make_ensemble(machine.design, angles=fewest, torque=peak, outputs=LOADS, rigid=rigid)
-    peaks = run_ensemble(at_peak, samples, mapper=work_remembered, sensitivity=False)
-    # Last, so that what discs and ring yield at all its angles is at hand for other clearances.
-    found = Drawn(
-        run_ensemble(
-            make_ensemble(machine.design, rigid=rigid),
-            samples,
-            mapper=work_remembered,
-            sensitivity=sensitivity,
-            ranked=RANKED,
-        ),
-        peaks,
-    )
+    lasting = make_ensemble(machine.design, rigid=rigid)
+    # Side by side: the tables of one are made while the gearboxes of the other are worked.
+    with ThreadPoolExecutor(1) as beside:
+        peaks = beside.submit(
+            run_ensemble, at_peak, samples, mapper=work_remembered, sensitivity=False
+        )
+        try:
+            steady = run_ensemble(
+                lasting, samples, mapper=work_remembered, sensitivity=sensitivity, ranked=RANKED
+            )
+        finally:
+            # What is wrong at the peak is told first.
+            found_at_peak = peaks.result()
+    found = Drawn(steady, found_at_peak)
     if any(one.interrupted for one in found):
         raise KeyboardInterrupt
     return found

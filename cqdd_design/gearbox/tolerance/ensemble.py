@@ -116,7 +116,7 @@ def _yielding(design: Design, torque: float, angles: int) -> BodyCompliance:
 _one_at_a_time = threading.Lock()
 
 
-@functools.lru_cache(maxsize=1)
+@functools.lru_cache(maxsize=2)
 def _last_yielding(design: Design, torque: float, angles: int) -> BodyCompliance:
     model = ContactModel.from_design(design)
     bodies = bodies_or_none(design)
