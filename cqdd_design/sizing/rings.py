@@ -28,8 +28,8 @@ _MAY_WIN = 1.06
 NOT_FAR, _WIDER, _LESS_THROW, _SPARE = 0.4, (1.01, 1.02, 1.04), (0.97, 0.9), 1.01
 """From which margin of the shaft's lines wider rings and less eccentricity are tried, how much
 wider and less, and how much less load on the cam bearing than the margin says."""
-FAR_SHORT = 0.7
-"""Margin of bearings at a shaft's ends below which wider rings or less eccentricity hardly help."""
+FAR_SHORT = 0.6
+"""Margin of bearings at a shaft's ends below which rings that are a little wider do not help."""
 
 
 class Rings:
@@ -76,8 +76,7 @@ class Rings:
 
     def _stronger(self, weak: Found, margin: float) -> Iterator[Found]:
         """Designs beside one whose shaft is weak that has what it lacks."""
-        near = margin >= FAR_SHORT
-        for factor in _WIDER if near else ():
+        for factor in _WIDER if margin >= FAR_SHORT else ():
             wider = self.at(min(factor * weak.ring, self._most))
             if wider is not None and not wider.weak:
                 yield wider
@@ -86,7 +85,7 @@ class Rings:
         (cam,) = [one for one in self._hunt.held_against(weak.sized.machine)[1] if one.id == CAM]
         bears = cam.margin / self._hunt.extra_for(weak.cam).get(CAM, 1.0)
         for changed in (
-            *(space._replace(throw=less * throw) for less in _LESS_THROW if near),
+            *(space._replace(throw=less * throw) for less in _LESS_THROW),
             space._replace(quieter=_SPARE * bears / margin),
         ):
             self._space, self._tried = changed, {}
@@ -105,7 +104,14 @@ class Rings:
         found = self._settled(self._space._replace(free=True), _FIRST_ROUNDS)
         if found is None:
             return None
-        return self.at(found.ring) or self.at(min(_ROOMIER * found.ring, self._most))
+        held = self.at(found.ring)
+        if held is not None and held.weak:
+            # Held fast, what is lighter won; what was free may leave the shaft's ends more room.
+            space = self._space._replace(ring_limit=found.ring)
+            free = replace(found, space=space, weak=weak_lines(found.sized.machine))
+            if not free.weak:
+                self._tried[found.ring] = held = free
+        return held or self.at(min(_ROOMIER * found.ring, self._most))
 
     def at(self, ring: float) -> Found | None:
         """The best in a ring of a diameter, m, that the equilibrium bears out."""
