@@ -55,6 +55,12 @@ class _Way:
             return all(line.startswith(_NO_SPACE) for line in self.refusal.binding)
         return isinstance(self.refusal, TooHotError)
 
+    @property
+    def doubtful(self) -> bool:
+        """Whether it failed for what space hardly helps, among others."""
+        lines = self.refusal.binding if isinstance(self.refusal, SizingInfeasibleError) else ()
+        return self.hopeless or any(line.startswith(_NO_SPACE) for line in lines)
+
 
 def size_or_nearest(
     requirements: Requirements,
@@ -93,9 +99,10 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
         most, lasting = fits.peak_torque, fits.continuous_torque
         ways.append(f"peak_torque {most:g} N*m with continuous_torque {lasting:g} N*m")
     if not less.hopeless:
+        doubtful = _Way(hunt, None, refusal).doubtful
         for key, limit in _limits(hunt):
             hunt.say(f"looking for the least {key} that fits, up to {1e3 * limit:g} mm")
-            needed[key] = need = _least(less.hunt, asked, key, limit)
+            needed[key] = need = _least(less.hunt, asked, key, limit, doubtful=doubtful)
             ways += [] if need is None else [f"{key} {1e3 * need:g} mm"]
     if ways:
         told = f"What fits, by the whole verdict: {', or '.join(ways)}."
@@ -153,19 +160,30 @@ def _bears(hunt: Hunt, asked: Requirements) -> bool:
     return found is not None and not found.worth[0]
 
 
-def _least(hunt: Hunt, asked: Requirements, key: str, limit: float) -> float | None:
-    """The smallest ring or length with which the verdict is yes, near enough, m."""
+def _least(
+    hunt: Hunt, asked: Requirements, key: str, limit: float, *, doubtful: bool
+) -> float | None:
+    """The smallest ring or length with which the verdict is yes, near enough, m.
+
+    Parameters
+    ----------
+    doubtful : bool
+        Whether the most may not help either, which is tried first then.
+    """
 
     def stating(length: float) -> Requirements:
         changed = asked.model_copy(update={key: length})
         changed.model_fields_set.add(key)
         return changed
 
+    if doubtful and _tried(hunt, stating(limit)).found is None:
+        return None
+    surely = limit if doubtful else None
     low, known = getattr(asked, key), hunt
     for _ in range(_ROUNDS):
         high = limit
         if not _bears(known, stating(high)):
-            return None
+            return surely
         while high > (1.0 + _CLOSE) * low:
             middle = min(_up(math.sqrt(low * high)), round(high - _STEP, 9))
             if middle <= low:
@@ -174,11 +192,13 @@ def _least(hunt: Hunt, asked: Requirements, key: str, limit: float) -> float | N
         way = _tried(hunt, stating(high))
         if way.found is not None:
             return high
+        if way.doubtful and not doubtful:
+            return None
         # It has learnt what part errors take there.
         low, known = _up(_ON * high) - _STEP, way.hunt
         if low >= limit:
-            return None
-    return None
+            break
+    return surely
 
 
 def _up(length: float) -> float:

@@ -116,6 +116,31 @@ def test_where_less_torque_does_not_help_neither_does_space(monkeypatch):
     assert len(tried) == 2
 
 
+def test_where_space_may_not_help_the_most_of_it_is_tried_first(monkeypatch):
+    torques = found(peak_torque=15.0, continuous_torque=5.0)
+    hot = refused("THERMAL-RISE", "YIELD")
+    binding = "MOTOR-CONTINUOUS", "YIELD"
+
+    def never(length, derived):
+        return torques if derived else hot
+
+    error, tried = said(monkeypatch, lambda _: True, never, first=binding)
+    assert error.length_needed is None
+    assert error.to_dict()["most_peak_torque_Nm"] == 15.0
+    assert [one[0] for one in tried[2:]] == [20.0]
+
+    def if_long(length, derived):
+        return torques if derived or length > 14.2 else hot
+
+    error, tried = said(monkeypatch, lambda length: length >= 13.2, if_long, first=binding)
+    assert 14.2e-3 < error.length_needed < 15e-3
+    assert tried[2][0] == 20.0
+    # A search for more space that fails for heat ends as well.
+    error, tried = said(monkeypatch, lambda length: length >= 13.2, if_long)
+    assert error.length_needed is None
+    assert len(tried) == 3
+
+
 def test_torques_that_nobody_stated_are_not_looked_for(monkeypatch):
     given = {"ratio": 16}
     error, tried = said(monkeypatch, lambda _: False, lambda *_: refused("YIELD"), given)
