@@ -136,21 +136,15 @@ def searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
     Where the search for the best ends without a design, the first that meets everything is searched
     for: that is what refusals name as the nearest, so whoever asks for it has to find it.
     """
+    goal = hunt.goal
     try:
         return _searched(hunt, requirements)
     except SizingInfeasibleError:
         if hunt.any_will_do or hunt.calm is None:
             raise
         hunt.say("searching for any design that meets everything")
-        again = Hunt(
-            first_guess(requirements, hunt.motor),
-            hunt.motor,
-            hunt.ambient,
-            hunt.say,
-            hunt.tables,
-            hunt.goal,
-            any_will_do=True,
-        )
+        again = new_hunt(requirements, hunt.say, hunt.motor, hunt.ambient, goal)
+        again.any_will_do = True
         try:
             return _searched(again, requirements)
         except InfeasibleError:
