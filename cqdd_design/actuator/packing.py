@@ -88,7 +88,9 @@ def pack(parameters: ActuatorParameters, scenario: Scenario, step: float) -> Con
         motor_angle = start.output_angle * gear.ratio
         for _ in range(20):
             off = float(kinematic_error(gear, np.array([motor_angle]))[0])
-            motor_angle = gear.ratio * (start.output_angle - off)
+            before, motor_angle = motor_angle, gear.ratio * (start.output_angle - off)
+            if motor_angle == before:
+                break
     first_speed = start.output_speed
     if load.speed is not None:
         first_speed = float(load.speed.values(np.zeros(1))[0])

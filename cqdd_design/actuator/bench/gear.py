@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
+from collections.abc import Callable, Collection, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -11,7 +11,7 @@ import numpy as np
 from cqdd_design.actuator import joint_side
 from cqdd_design.actuator.bench.metric import Metric
 from cqdd_design.actuator.bench.steady import run_cold
-from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray
+from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray, GearParameters
 from cqdd_design.actuator.scenario import (
     Command,
     Constant,
@@ -28,8 +28,15 @@ DIAL = 0.0127e-3
 """Least movement a dial gauge shows, m: half a thousandth of an inch (Gebler 1998)."""
 DIAL_RADIUS = 0.1
 """Where the dial touches an arm on the output, m."""
+_BROKEN_AWAY = 1.15
+"""Torque by which most break away, over what is expected."""
 _MOVING = 5e-4
 """Output speed above which it counts as broken away, rad/s."""
+_LEAD, _BACK = 0.4, 2.0
+"""Time onto a flank, and as long at rest; then to the other flank, s."""
+_RETURNED = 2.0 * _LEAD + _BACK
+_DIAL_SPACING = 5e-4
+"""Between two records of the dial, s."""
 _AT_REST = 0.01
 """Of a reading's whole motor angle: nearer to a flank the motor counts as resting there."""
 
@@ -43,9 +50,9 @@ def backlash(
 
     Of drawn gearboxes the mean, each read in the same way.
     """
-    own, run = _readings(parameters, positions)
+    own = _readings(parameters, positions)
     # The dead zone of a gearbox is one number here: two places of each are as good as six.
-    others = [_readings(one, min(positions, 2))[0] for one in drawn]
+    others = [_readings(one, min(positions, 2)) for one in drawn]
     each = np.array([float(values.mean()) for values in others if values.size]) if others else own
     details = {
         "dead_zone_arcmin": parameters.gear.backlash * ARCMIN,
@@ -59,6 +66,7 @@ def backlash(
     if others:
         details["perfect_parts_arcmin"] = float(own.mean()) if own.size else 0.0
         protocol += told_draws(len(others))
+    shown = run_cold(parameters, _to_and_fro(parameters, positions)[0], _RETURNED, _DIAL_SPACING)
     return Metric(
         "backlash",
         float(each.mean()) if each.size else 0.0,
@@ -68,8 +76,8 @@ def backlash(
         spread=float(each.std(ddof=1)) if each.size > 1 else None,
         details=details,
         trace={
-            "motor over ratio [rad]": run.motor_angle[0] / parameters.gear.ratio,
-            "output [rad]": run.output_angle[0],
+            "motor over ratio [rad]": shown.motor_angle[0] / parameters.gear.ratio,
+            "output [rad]": shown.output_angle[0],
         },
     )
 
@@ -79,17 +87,41 @@ def told_draws(count: int) -> str:
     return f"; mean and spread of {count} gearboxes drawn from the tolerances"
 
 
-def _readings(parameters: ActuatorParameters, positions: int) -> tuple[FloatArray, Simulation]:
-    """Backlash at each place and from each flank, arcmin, and the run."""
-    gear = parameters.gear
-    threshold = DIAL / DIAL_RADIUS
-    sweep = gear.backlash + 6.0 * threshold + 2.0 / ARCMIN
-    lead, back = 0.4, 2.0
+def _first_found(
+    parameters: ActuatorParameters,
+    scenes: Sequence[Scenario],
+    durations: tuple[float, float],
+    spacing: float,
+    read: Callable[[Simulation, int], float | None],
+) -> FloatArray:
+    """What is read off each scene, in order, of those that show anything.
+
+    All are run as far as the first duration, s, which is enough for most, and to the second one
+    where nothing has been read yet: a run is the same, however long it goes on.
+    """
+    found: list[float | None] = [None] * len(scenes)
+    for duration in durations:
+        left = [i for i, value in enumerate(found) if value is None]
+        if not left:
+            break
+        run = run_cold(parameters, [scenes[i] for i in left], duration, spacing)
+        for place, i in enumerate(left):
+            found[i] = read(run, place)
+    return np.array([value for value in found if value is not None])
+
+
+def _sweep(gear: GearParameters) -> float:
+    """How far the motor is turned to either side of a place, rad at the output."""
+    return gear.backlash + 6.0 * (DIAL / DIAL_RADIUS) + 2.0 / ARCMIN
+
+
+def _to_and_fro(parameters: ActuatorParameters, positions: int) -> list[Scenario]:
+    """Onto one flank, rest, then slowly off it and onto the other; both senses at every place."""
+    times = np.array([0.0, _LEAD, 2.0 * _LEAD, _RETURNED])
+    sweep = _sweep(parameters.gear)
     scenes = []
     for place in 2.0 * math.pi * np.arange(positions) / positions:
         for sense in (1.0, -1.0):
-            # Onto one flank, rest, then slowly off it and onto the other.
-            times = np.array([0.0, lead, 2.0 * lead, 2.0 * lead + back])
             path = place + sense * np.array([0.0, 1.0, 1.0, -1.0]) * sweep
             scenes.append(
                 Scenario(
@@ -104,18 +136,26 @@ def _readings(parameters: ActuatorParameters, positions: int) -> tuple[FloatArra
                     Start(output_angle=place),
                 )
             )
-    run = run_cold(parameters, scenes, 2.0 * lead + back, 5e-4)
-    ratio = gear.ratio
-    rest = int(np.searchsorted(run.time, 1.9 * lead))
-    found = []
-    for i in range(len(scenes)):
-        motor = run.motor_angle[i] / ratio
-        output = run.output_angle[i]
+    return scenes
+
+
+def _readings(parameters: ActuatorParameters, positions: int) -> FloatArray:
+    """Backlash at each place and from each flank, arcmin."""
+    gear, threshold = parameters.gear, DIAL / DIAL_RADIUS
+
+    def read(run: Simulation, i: int) -> float | None:
+        rest = int(np.searchsorted(run.time, 1.9 * _LEAD))
+        motor, output = run.motor_angle[i] / gear.ratio, run.output_angle[i]
         moved = np.flatnonzero(np.abs(output[rest:] - output[rest]) > threshold)
-        if moved.size:
-            at = rest + int(moved[0])
-            found.append(abs(motor[at] - motor[rest]) - threshold)
-    return np.array(found) * ARCMIN, run
+        if not moved.size:
+            return None
+        return float(abs(motor[rest + int(moved[0])] - motor[rest]) - threshold)
+
+    # On the way back the output has moved once backlash and threshold are passed.
+    passed = (gear.backlash + 2.0 * threshold) / (2.0 * _sweep(gear))
+    durations = (2.0 * _LEAD + passed * _BACK, _RETURNED)
+    scenes = _to_and_fro(parameters, positions)
+    return _first_found(parameters, scenes, durations, _DIAL_SPACING, read) * ARCMIN
 
 
 def dead_zone(motor: FloatArray, output: FloatArray) -> tuple[float, float, float] | None:
@@ -156,22 +196,25 @@ def backdrive_static(parameters: ActuatorParameters, positions: int = 12) -> Met
         for place in range(positions)
         for sense in (1.0, -1.0)
     ]
-    run = run_cold(parameters, scenes, duration, 1e-3)
     # Within a well of cogging the motor gives way and does not break away.
     well = math.pi / motor.cogging_order if motor.cogging_amplitude > 0.0 else 0.0
-    found = []
-    for i in range(len(scenes)):
+
+    def read(run: Simulation, i: int) -> float | None:
         travel = np.abs(run.motor_angle[i] - run.motor_angle[i][0])
         fast = np.abs(run.motor_speed[i]) > _MOVING * ratio
         moving = np.flatnonzero(fast & (travel > well))
-        if moving.size:
-            at = int(moving[0])
-            # What it withstood is the torque at the crest of the cogging, not that past it.
-            below = np.flatnonzero(travel[:at] <= 0.5 * well) if well else moving[:0]
-            found.append(slope * run.time[below[-1] if below.size else at])
-    if not found:
+        if not moving.size:
+            return None
+        at = int(moving[0])
+        # What it withstood is the torque at the crest of the cogging, not that past it.
+        below = np.flatnonzero(travel[:at] <= 0.5 * well) if well else moving[:0]
+        return float(slope * run.time[below[-1] if below.size else at])
+
+    likely = min(_BROKEN_AWAY * expected / slope, duration)
+    values = _first_found(parameters, scenes, (likely, duration), 1e-3, read)
+    if not values.size:
         return None
-    values = np.array(found)
+    shown = run_cold(parameters, scenes[0], duration, 1e-3)
     return Metric(
         "backdrive_static",
         float(values.mean()),
@@ -182,9 +225,9 @@ def backdrive_static(parameters: ActuatorParameters, positions: int = 12) -> Met
         spread=float(values.std(ddof=1)) if values.size > 1 else None,
         details={"readings": float(values.size)},
         trace={
-            "time [s]": run.time,
-            "output torque [N m]": slope * run.time,
-            "motor speed [rad/s]": run.motor_speed[0],
+            "time [s]": shown.time,
+            "output torque [N m]": slope * shown.time,
+            "motor speed [rad/s]": shown.motor_speed[0],
         },
     )
 

@@ -9,7 +9,8 @@ W what bodies yield under the forces, and the springs of cams, carrier and pins 
     P' f(a) + K u = load            of every body
 
 Newton's method takes both at once: the contacts that touch are eliminated from
-[1/f' + W, -B; P', K], which leaves the motions alone. :mod:`.compliant_newton_kernel` solves.
+[1/f' + W, -B; P', K], which leaves the motions alone. Where no pin is pushed by two discs,
+:mod:`.compliant_apart_kernel` does that in less time; :mod:`.compliant_newton_kernel` solves.
 A plain numpy twin stands in ``tests/oracles/contact_carrier_plain.py``.
 """
 
@@ -50,6 +51,7 @@ def yielding_work(discs: int, contacts: int) -> YieldingWork:
         np.empty((discs, contacts), dtype=np.int64),
         np.empty(discs + 1, dtype=np.int64),
         np.empty((forces + size, forces + 1 + size)),
+        np.empty((discs, 7 + contacts, 8 + 4 * ((contacts + 3) // 4))),
     )
 
 
@@ -185,7 +187,7 @@ def press(
 
 
 @part(borrows=True, forceinline=True)
-def _meet(touching: Any, first: Any, teeth: int) -> bool:
+def discs_meet(touching: Any, first: Any, teeth: int) -> bool:
     """Whether any two discs push the same pin; contacts stand in rising order."""
     for e in range(1, first.size - 1):
         for d in range(e):
@@ -204,27 +206,25 @@ def _meet(touching: Any, first: Any, teeth: int) -> bool:
 
 
 @part(borrows=True, forceinline=True)
-def _add_cams(
-    contacts: Contacts, springs: Springs, u: Any, matrix: Any, row: int, column: int
+def add_cam(
+    contacts: Contacts, springs: Springs, u: Any, d: int, matrix: Any, row: int, column: int
 ) -> None:
-    """Stiffness of the cam bearings, from the row and column of the first disc."""
-    offset, half_play = contacts.offset, contacts.half_play
-    for d in range(half_play.size):
-        i, j, m = 4 + 3 * d, row + 3 * d, column + 3 * d
-        rx = u[i] - offset[d, 0]
-        ry = u[i + 1] - offset[d, 1]
-        rho = math.sqrt(rx * rx + ry * ry)
-        over = rho - half_play[d]
-        if over > 0.0 and rho > 0.0:
-            f, s = radial_force(springs.cam_stiffness, springs.cam_exponent, over)
-            ux, uy, across = rx / rho, ry / rho, f / rho
-            matrix[j, m] += s * ux * ux + across * uy * uy
-            matrix[j, m + 1] += (s - across) * ux * uy
-            matrix[j + 1, m] += (s - across) * ux * uy
-            matrix[j + 1, m + 1] += s * uy * uy + across * ux * ux
-        elif over >= 0.0 and springs.cam_exponent == 1.0:
-            matrix[j, m] += springs.cam_stiffness
-            matrix[j + 1, m + 1] += springs.cam_stiffness
+    """Stiffness of a disc's cam bearing, from the disc's first row and column."""
+    half_play, i, j = contacts.half_play[d], 4 + 3 * d, row + 1
+    rx = u[i] - contacts.offset[d, 0]
+    ry = u[i + 1] - contacts.offset[d, 1]
+    rho = math.sqrt(rx * rx + ry * ry)
+    over = rho - half_play
+    if over > 0.0 and rho > 0.0:
+        f, s = radial_force(springs.cam_stiffness, springs.cam_exponent, over)
+        ux, uy, across = rx / rho, ry / rho, f / rho
+        matrix[row, column] += s * ux * ux + across * uy * uy
+        matrix[row, column + 1] += (s - across) * ux * uy
+        matrix[j, column] += (s - across) * ux * uy
+        matrix[j, column + 1] += s * uy * uy + across * ux * ux
+    elif over >= 0.0 and springs.cam_exponent == 1.0:
+        matrix[row, column] += springs.cam_stiffness
+        matrix[j, column + 1] += springs.cam_stiffness
 
 
 @part(borrows=True, forceinline=True)
@@ -235,11 +235,8 @@ def assemble(
     u: Any,
     ridge: float,
     work: YieldingWork,
-) -> bool:
-    """The system of forces and motions; returns whether discs meet at a pin.
-
-    Where they do not, entries between discs are neither written nor read.
-    """
+) -> None:
+    """The system of forces and motions."""
     rows, pins, bodies, push = contacts.rows, compliance.pins, compliance.bodies, work.push
     gradient = work.gradient
     at_cap, touching, matrix, stiff = compliance.at_cap, work.touching, work.matrix, work.stiff
@@ -250,8 +247,7 @@ def assemble(
     total = touch + 1 + size
     right, motion = touch, touch + 1
     yields = bodies.shape[0] > 0
-    meet = _meet(touching, first, teeth)
-    for i in range(touch, touch + size):
+    for i in range(touch + size):
         for j in range(total):
             matrix[i, j] = 0.0
     for d in range(discs):
@@ -259,9 +255,6 @@ def assemble(
         for i in range(first[d], first[d + 1]):
             k = touching[d, i - first[d]]
             nx, ny, h = rows[d, k, 0], rows[d, k, 1], rows[d, k, 2]
-            if meet:
-                for j in range(total):
-                    matrix[i, j] = 0.0
             for j in range(first[d], first[d + 1]):
                 matrix[i, j] = bodies[d, touching[d, j - first[d]], k] if yields else 0.0
             matrix[i, i] += 1.0 / stiff[d, k]
@@ -274,8 +267,6 @@ def assemble(
             matrix[row + 1, i] = -fy
             matrix[row + 2, i] = -push[d, k, 2]
             if k < teeth:
-                for j in range(4):
-                    matrix[i, motion + j] = 0.0
                 continue
             matrix[i, i] += pins[d, d] * (nx * fx + ny * fy)
             matrix[i, motion] = -nx if bed > 0.0 else 0.0
@@ -287,48 +278,41 @@ def assemble(
             matrix[touch + 1, i] = fy if bed > 0.0 else 0.0
             matrix[touch + 2, i] = (1.0 - shown) * held
             matrix[touch + 3, i] = shown * held
-    if meet:
-        for d in range(discs):
-            for e in range(discs):
-                for i in range(first[d], first[d + 1]):
-                    k = touching[d, i - first[d]]
-                    for j in range(first[e], first[e + 1]):
-                        if e != d and k >= teeth and touching[e, j - first[e]] == k:
-                            along = rows[d, k, 0] * push[e, k, 0] + rows[d, k, 1] * push[e, k, 1]
-                            matrix[i, j] = pins[d, e] * along
+    for d in range(discs):
+        for e in range(discs):
+            for i in range(first[d], first[d + 1]):
+                k = touching[d, i - first[d]]
+                for j in range(first[e], first[e + 1]):
+                    if e != d and k >= teeth and touching[e, j - first[e]] == k:
+                        along = rows[d, k, 0] * push[e, k, 0] + rows[d, k, 1] * push[e, k, 1]
+                        matrix[i, j] = pins[d, e] * along
     matrix[touch, motion] = bed if bed > 0.0 else 1.0
     matrix[touch + 1, motion + 1] = bed if bed > 0.0 else 1.0
     matrix[touch + 2, motion + 2] = join
     matrix[touch + 2, motion + 3] = -join
     matrix[touch + 3, motion + 2] = -join
     matrix[touch + 3, motion + 3] = join
-    _add_cams(contacts, springs, u, matrix, touch + 4, motion + 4)
+    for d in range(discs):
+        add_cam(contacts, springs, u, d, matrix, touch + 4 + 3 * d, motion + 4 + 3 * d)
     for i in range(size):
         matrix[touch + i, motion + i] += ridge
         matrix[touch + i, right] = -gradient[i]
-    return meet
 
 
 @part(borrows=True, forceinline=True)
-def _clear(matrix: Any, pivot: Any, rows: Any, after: Any, others: Any) -> None:
-    """Take a pivot (row and column) out of some rows: its columns `after` it, and two others."""
+def _clear(matrix: Any, pivot: Any, rows: Any, columns: Any) -> None:
+    """Take a pivot (row and column) out of some rows, in some columns."""
     i, c = pivot
-    low, high = after
-    left, right, own, end = others
     inverse = 1.0 / matrix[i, c]
     for j in range(rows[0], rows[1]):
         share = matrix[j, c] * inverse
         if share != 0.0:
-            for k in range(low, high):
-                matrix[j, k] -= share * matrix[i, k]
-            for k in range(left, right):
-                matrix[j, k] -= share * matrix[i, k]
-            for k in range(own, end):
+            for k in range(columns[0], columns[1]):
                 matrix[j, k] -= share * matrix[i, k]
 
 
 @part(borrows=True, forceinline=True)
-def _swap_for_pivot(matrix: Any, i: int, c: int, last: int, columns: Any) -> int:
+def swap_for_pivot(matrix: Any, i: int, c: int, last: int, columns: Any) -> int:
     """Bring the greatest entry of column c among rows i to `last` into row i; where it was."""
     pivot = i
     for j in range(i + 1, last):
@@ -343,96 +327,90 @@ def _swap_for_pivot(matrix: Any, i: int, c: int, last: int, columns: Any) -> int
 
 
 @part(borrows=True, forceinline=True)
-def eliminate(work: YieldingWork, meet: bool, fixed: int) -> float:
-    """Motions into `work.step`, changes of force into the right-hand side.
+def carrier_motion(matrix: Any, row: int, right: int, fixed: int, work: YieldingWork) -> float:
+    """Motions of the carrier into `work.step`, of which the first `fixed` are none.
 
-    The forces go first, disc by disc: their diagonal is above what couples them. Then go the
-    motions of the discs and those of the carrier, of which the first `fixed` do not move, with row
-    pivots; beside the residual a unit torque on the plate. Returned is the torque over its turn.
+    Its four rows begin at `row`; the right-hand side stands before its four columns. A unit torque
+    on the plate is solved beside it, and the torque over its turn returned.
     """
-    matrix, step, unit, first = work.matrix, work.step, work.unit, work.first
-    size, discs = step.size, first.size - 1
-    touch = int(first[discs])
-    right, motion, total = touch, touch + 1, touch + 1 + size
-    carrier, end = (touch + fixed, touch + 4), touch + size
-    for d in range(discs):
-        own = motion + 4 + 3 * d
-        row = own - 1
-        last = int(first[d + 1])
-        others = (right, motion + 4, own, own + 3)
-        for i in range(int(first[d]), last):
-            if meet:
-                _clear(matrix, (i, i), (i + 1, end), (i + 1, total), (0, 0, 0, 0))
-            else:
-                _clear(matrix, (i, i), (i + 1, last), (i + 1, last), others)
-                _clear(matrix, (i, i), carrier, (i + 1, last), others)
-                _clear(matrix, (i, i), (row, row + 3), (i + 1, last), others)
-    # Discs before the carrier: without a pin between them they share nothing else.
-    for d in range(discs):
-        row, own = touch + 4 + 3 * d, motion + 4 + 3 * d
-        for i in range(3):
-            r, c = row + i, own + i
-            past = end if meet else row + 3
-            _swap_for_pivot(matrix, r, c, past, (right, total))
-            ahead = (c + 1, total if meet else own + 3)
-            _clear(matrix, (r, c), (r + 1, past), ahead, (right, motion + 4, 0, 0))
-            _clear(matrix, (r, c), carrier, ahead, (right, motion + 4, 0, 0))
+    step, unit, motion = work.step, work.unit, right + 1
     for i in range(4):
         unit[i] = 0.0
     unit[2] = 1.0
     for i in range(fixed, 4):
-        r, c = touch + i, motion + i
-        pivot = _swap_for_pivot(matrix, r, c, touch + 4, (right, motion + 4)) - touch
+        r, c = row + i, motion + i
+        pivot = swap_for_pivot(matrix, r, c, row + 4, (right, motion + 4)) - row
         unit[i], unit[pivot] = unit[pivot], unit[i]
         for j in range(i + 1, 4):
-            share = matrix[touch + j, c] / matrix[r, c]
+            share = matrix[row + j, c] / matrix[r, c]
             unit[j] -= share * unit[i]
-        _clear(matrix, (r, c), (r + 1, touch + 4), (c + 1, motion + 4), (right, right + 1, 0, 0))
+        _clear(matrix, (r, c), (r + 1, row + 4), (right, motion + 4))
     for i in range(fixed):
         step[i] = 0.0
         unit[i] = 0.0
     for i in range(3, fixed - 1, -1):
-        left, lone = matrix[touch + i, right], unit[i]
+        left, lone = matrix[row + i, right], unit[i]
         for k in range(i + 1, 4):
-            left -= matrix[touch + i, motion + k] * step[k]
-            lone -= matrix[touch + i, motion + k] * unit[k]
-        step[i] = left / matrix[touch + i, motion + i]
-        unit[i] = lone / matrix[touch + i, motion + i]
+            left -= matrix[row + i, motion + k] * step[k]
+            lone -= matrix[row + i, motion + k] * unit[k]
+        step[i] = left / matrix[row + i, motion + i]
+        unit[i] = lone / matrix[row + i, motion + i]
+    return 1.0 / float(unit[2])
+
+
+@part(borrows=True, forceinline=True)
+def eliminate(work: YieldingWork, fixed: int) -> float:
+    """Motions into `work.step`, changes of force into `work.change`, where the contacts touch.
+
+    The forces go first: their diagonal is above what couples them. Then go the motions of the discs
+    and those of the carrier, of which the first `fixed` do not move, with row pivots; beside the
+    residual a unit torque on the plate. Returned is the torque over its turn.
+    """
+    matrix, step, first, touching = work.matrix, work.step, work.first, work.touching
+    change, size, discs = work.change, work.step.size, work.first.size - 1
+    touch = int(first[discs])
+    right, motion, total = touch, touch + 1, touch + 1 + size
+    carrier, end = (touch + fixed, touch + 4), touch + size
+    for i in range(touch):
+        _clear(matrix, (i, i), (i + 1, end), (i + 1, total))
+    # Discs before the carrier.
+    for i in range(4, size):
+        r, c = touch + i, motion + i
+        swap_for_pivot(matrix, r, c, end, (right, total))
+        _clear(matrix, (r, c), (r + 1, end), (c + 1, total))
+        _clear(matrix, (r, c), (r + 1, end), (right, motion + 4))
+        _clear(matrix, (r, c), carrier, (c + 1, total))
+        _clear(matrix, (r, c), carrier, (right, motion + 4))
+    turn = carrier_motion(matrix, touch, right, fixed, work)
     for i in range(size - 1, 3, -1):
         left = matrix[touch + i, right]
         for k in range(fixed, 4):
             left -= matrix[touch + i, motion + k] * step[k]
-        for k in range(i + 1, size if meet else 7 + 3 * ((i - 4) // 3)):
+        for k in range(i + 1, size):
             left -= matrix[touch + i, motion + k] * step[k]
         step[i] = left / matrix[touch + i, motion + i]
     for d in range(discs - 1, -1, -1):
-        low, high = (4, size) if meet else (4 + 3 * d, 7 + 3 * d)
-        last = touch if meet else int(first[d + 1])
         for i in range(int(first[d + 1]) - 1, int(first[d]) - 1, -1):
             left = matrix[i, right]
-            for k in range(i + 1, last):
+            for k in range(i + 1, touch):
                 left -= matrix[i, k] * matrix[k, right]
             for k in range(fixed, 4):
                 left -= matrix[i, motion + k] * step[k]
-            for k in range(low, high):
+            for k in range(4, size):
                 left -= matrix[i, motion + k] * step[k]
             matrix[i, right] = left / matrix[i, i]
-    return 1.0 / float(unit[2])
+            change[d, touching[d, i - first[d]]] = matrix[i, right]
+    return turn
 
 
 @part(borrows=True, forceinline=True)
 def change_approach(
     contacts: Contacts, teeth: int, compliance: Compliance, work: YieldingWork
 ) -> None:
-    """Change of every approach with the motions' step and the forces' change."""
-    rows, at_cap, touching, lack = contacts.rows, compliance.at_cap, work.touching, work.lack
-    change, step, first, matrix = work.change, work.step, work.first, work.matrix
-    yielded = work.yielded
+    """Change of every approach into `work.change`, where the change of every force stands."""
+    rows, at_cap, lack = contacts.rows, compliance.at_cap, work.lack
+    change, step, yielded = work.change, work.step, work.yielded
     discs, count = lack.shape
-    right = first[discs]
-    for d in range(discs):
-        for i in range(first[d], first[d + 1]):
-            change[d, touching[d, i - first[d]]] = matrix[i, right]
     _find_yield(contacts, teeth, compliance, change, work)
     for d in range(discs):
         i = 4 + 3 * d

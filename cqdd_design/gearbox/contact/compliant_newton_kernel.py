@@ -14,9 +14,11 @@ import numpy as np
 
 from cqdd_design.files.kernel_arrays import put, put_rows
 from cqdd_design.files.kernel_part import part
+from cqdd_design.gearbox.contact.compliant_apart_kernel import assemble_apart, eliminate_apart
 from cqdd_design.gearbox.contact.compliant_kernel import (
     assemble,
     change_approach,
+    discs_meet,
     eliminate,
     find_pushes,
     press,
@@ -149,6 +151,7 @@ def solve_yielding(
     torsional, previous = 0.0, np.inf
     trial, trial_approach, step, change = work.trial, work.trial_approach, work.step, work.change
     pull, size = load.pull, u.size
+    fixed = 2 if springs.carrier_stiffness <= 0.0 else 0
     discs, count = approach.shape
     find_pushes(contacts, rubbing, work)
     put(trial, u)
@@ -171,8 +174,12 @@ def solve_yielding(
             if iteration == _STEPS or not math.isfinite(square):
                 return NOT_CONVERGED, iteration, torsional
             scale = max(abs(pull), largest, _UNLOADED * load.scale_stiffness)
-            meet = assemble(contacts, springs, compliance, u, ridge, work)
-            torsional = eliminate(work, meet, 2 if springs.carrier_stiffness <= 0.0 else 0)
+            if discs_meet(work.touching, work.first, springs.teeth):
+                assemble(contacts, springs, compliance, u, ridge, work)
+                torsional = eliminate(work, fixed)
+            else:
+                assemble_apart(contacts, springs, compliance, u, ridge, work)
+                torsional = eliminate_apart(work, fixed)
             change_approach(contacts, springs.teeth, compliance, work)
             stuck = iteration > 3 and residual >= 0.25 * previous and residual <= 1e-7 * scale
             # As with held plates, the last step is taken on the forces too, in first order.

@@ -157,6 +157,9 @@ class YieldingWork(NamedTuple):
     matrix: FloatArray
     """(D C + U, D C + 1 + U) Forces and motions; the right-hand side stands between their
     columns."""
+    blocks: FloatArray
+    """(D, 7 + C, 8 + C or up to three more) The same of every disc with the carrier, where discs
+    share nothing else; see :mod:`.compliant_apart_kernel`."""
 
 
 class YieldingResult(NamedTuple):
