@@ -335,7 +335,7 @@ def _ask_extra(hunt: Hunt, machine: Machine, over: Mapping[str, float]) -> None:
     By the lines of rigid discs and ring, whatever the gearboxes did: it is these that searches
     compare it with, and where bodies yield a design has more.
     """
-    lines = hunt.held_against(replace(machine, stiff=True))[1]
+    lines = hunt.held_against(machine)[1]
     by_id = {line.id: line for line in lines}
     hunt.ask_extra(
         machine.design.reducer.cam_bearing.designation,

@@ -21,7 +21,8 @@ from cqdd_design.verdict.shaft_lines import shaft_lines
 BOND = "BELL-JOINT"
 ENDS = "SUPPORT-STATIC"
 AT_PEAK = frozenset({"SHAFT-STRENGTH", ENDS})
-"""Lines of the shaft in proportion to the peak torque."""
+"""Lines of the shaft that less peak torque helps: the strength in proportion, the bearings by less,
+since what the rotor puts on them stays."""
 SHAFT = AT_PEAK | {"SHAFT-FATIGUE", "SUPPORT-LIFE", "SHAFT-ROTOR-GAP", "SHAFT-STUB", BOND}
 """Lines that a cam bearing with a wider bore helps."""
 THICKNESS = frozenset({"SHAFT-STRENGTH", "SHAFT-FATIGUE"})

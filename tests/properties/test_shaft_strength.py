@@ -37,6 +37,7 @@ from cqdd_design.machine.shaft_strength import (
     shaft_strength,
     support_loads,
 )
+from cqdd_design.results import Check
 from cqdd_design.solids.proportions import carrier_bearings
 from cqdd_design.verdict.shaft_lines import shaft_lines
 
@@ -293,6 +294,21 @@ def test_the_rotor_is_held_by_both_bearings(machine: Machine) -> None:
     most = max(discs[0] + lower, discs[1] + upper)
     assert line.value == pytest.approx(machine.seats[0].bearing.static_rating / most)
     assert f"{upper:.0f} N of it from the rotor" in line.substituted
+
+
+def test_less_torque_lightens_the_discs_part_alone(machine: Machine) -> None:
+    """The torque that the remedy names is one that the bearings bear, and little more is not."""
+
+    def at(torque: float) -> Check:
+        design = machine.given.replacing({"requirements.peak_torque": torque})
+        return next(one for one in shaft_lines(resolve(design)) if one.id == "SUPPORT-STATIC")
+
+    peak = machine.design.requirements.peak_torque
+    strong = at(1.1 * at(peak).margin * peak)
+    assert strong.status == "fail"
+    told = float(re.search(r"lower the torque to ([0-9.]+) N", strong.remedy)[1])
+    # Rounded down, and the equilibrium is not quite in proportion.
+    assert 1.0 <= at(told).margin <= 1.03
 
 
 def test_a_rotor_that_is_not_drawn_is_missed_in_words(machine: Machine) -> None:

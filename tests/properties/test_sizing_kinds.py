@@ -41,6 +41,7 @@ from cqdd_design.sizing.verified import (
     _better,
     _less_of_it,
     _may_go_back,
+    _searched,
     _Sound,
     searched,
 )
@@ -171,6 +172,7 @@ def test_where_many_have_been_looked_at_no_other_is_hoped_to_need_less(
         "cqdd_design.sizing.kinds.ranked", lambda one: calls.append(one.trusting) or []
     )
     assert _hoped_for(hunt) is None
+    assert calls == [True]
     for cam in ("6801", "6802", "6804"):
         hunt.ask_extra(cam, {"BEARING-STATIC": 2.5})
     assert _hoped_for(hunt) is None
@@ -246,7 +248,6 @@ def test_of_few_gearboxes_the_overloaded_one_asks_for_reserve(
     ensemble = SimpleNamespace(values=np.ones((32, 1)), lost=0)
     drawn = Drawn(ensemble, ensemble)  # type: ignore[arg-type]
     lines = (SimpleNamespace(id="BEARING-STATIC"),)
-    monkeypatch.setattr(looks + "replace", lambda machine, **_: machine)
     monkeypatch.setattr(Hunt, "held_against", lambda _hunt, machine: (machine, lines))
     found = read_spread(hunt, SimpleNamespace(design=design), drawn, ())  # type: ignore[arg-type]
     assert found == step
@@ -370,6 +371,33 @@ def test_before_a_refusal_any_design_is_searched_for(monkeypatch: pytest.MonkeyP
     assert tried == [False, True] * 2
 
 
+def test_any_design_is_judged_as_it_was_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No better one is searched for."""
+    hunt = hunt_for(asked(10, 30.0, 4.0, 1000.0))
+    hunt.any_will_do = True
+    sized = SimpleNamespace(machine=None, design=SimpleNamespace(name="one"))
+    one = SimpleNamespace(weak=(), rated=True, cam="6803", sized=sized)
+    answers: dict[str, Any] = {
+        "promising": one,
+        "learn": False,
+        "drawing_ahead": nullcontext(),
+        "look": (None, None),
+        "last_look": None,
+        "eased": None,
+        "judge": SimpleNamespace(meets="yes"),
+        "_result": "with alternatives",
+    }
+    for name, answer in answers.items():
+        monkeypatch.setattr(
+            "cqdd_design.sizing.verified." + name, lambda *_, answer=answer, **__: answer
+        )
+    for name in ("lightest", "finer"):
+        monkeypatch.setattr(
+            "cqdd_design.sizing.verified." + name, lambda *_: pytest.fail("is searched for")
+        )
+    assert _searched(hunt, hunt.requirements).sizing == answers["_result"]
+
+
 def test_any_design_is_the_first_that_is_sound(monkeypatch: pytest.MonkeyPatch) -> None:
     hunt = hunt_for(asked(10, 30.0, 4.0, 1000.0))
     ways: list[bool] = []
@@ -416,6 +444,10 @@ def test_a_gearbox_is_eased_once_and_in_the_end_again(monkeypatch: pytest.Monkey
     assert shares == [LITTLE]
     _less_of_it(hunt, found, _PATIENCE)
     assert shares == [LITTLE, MUCH]
+    # Where any design will do, much at once.
+    hunt.eased, hunt.any_will_do = False, True
+    _less_of_it(hunt, found, 0)
+    assert shares == [LITTLE, MUCH, MUCH]
 
 
 def test_a_sound_design_is_gone_back_to_where_another_promises_little_more(

@@ -135,6 +135,15 @@ def test_where_space_may_not_help_the_most_of_it_is_tried_first(monkeypatch):
     error, tried = said(monkeypatch, lambda length: length >= 13.2, if_long, first=binding)
     assert 14.2e-3 < error.length_needed < 15e-3
     assert tried[2][0] == 20.0
+    # What was found to fit is told where nothing smaller was in a few steps.
+    error, tried = said(
+        monkeypatch,
+        lambda _: True,
+        lambda length, derived: torques if derived or length > 19.9 else hot,
+        first=binding,
+    )
+    assert error.length_needed == pytest.approx(20e-3)
+    assert len(tried) == 2 + 1 + nearest._ROUNDS
     # A search for more space that fails for heat ends as well.
     error, tried = said(monkeypatch, lambda length: length >= 13.2, if_long)
     assert error.length_needed is None
