@@ -36,8 +36,8 @@ _HOPELESS = 0.85
 _NO_HOPE = 6
 """Cam bearings that have been looked at after which none is hoped to need far less than they."""
 _ALIKE = 1.15
-"""Ratio of the bores of cam bearings of the same kind, up to which they leave about the same room
-at a shaft's ends."""
+"""Ratio of the bores of cam bearings of the same kind, up to which the narrower leaves no more room
+at a shaft's ends. A wider one may leave it for the next larger bearing."""
 
 
 @dataclass
@@ -225,7 +225,7 @@ def _bears(hunt: Hunt, found: Found) -> float:
 def _is_too_weak(hunt: Hunt, kind: _Kind) -> bool:
     """Whether a bearing as wide at least was found to leave far too thin a shaft.
 
-    Or one much like it far too small bearings at the shaft's ends.
+    Or one like it and a little wider, far too small bearings at the shaft's ends.
     """
     peak, own = hunt.requirements.peak_torque, kind.space.disc_count
     return any(
@@ -233,7 +233,7 @@ def _is_too_weak(hunt: Hunt, kind: _Kind) -> bool:
         for (count, bore), most in hunt.too_weak.items()
     ) or any(
         (count, family) == (own, kind.family)
-        and 1.0 / _ALIKE < kind.bore / bore < _ALIKE
+        and 1.0 / _ALIKE < kind.bore / bore <= 1.0
         and FAR_SHORT * peak > most
         for (count, family, bore), most in hunt.ends_bear.items()
     )
