@@ -32,7 +32,7 @@ _CERTAIN = 0.97
 forms take for the strongest is that within a few per cent."""
 _CLOSE = 1.1
 """Likewise, below which it is the strongest design that is promising."""
-_LEAST = 0.1
+LEAST = 0.1
 """Share of a torque that is tried at least."""
 _DIGITS = 2
 LASTING = ("-CONTINUOUS", "-LIFE")
@@ -52,6 +52,7 @@ def or_weaker(
     if PEAK not in hunt.requirements.derived:
         return search()
     lowered: tuple[bool, bool] = (False, False)
+    looked = False
     first = bearable(hunt, None) if near is None else Borne(math.inf, math.inf)
     if first.least < _CLOSE:
         hunt.strongest = first.cam
@@ -60,6 +61,10 @@ def or_weaker(
         found = None if hopeless else search()
         if found is not None:
             return found
+        if hunt.short_of and not looked:
+            looked = True
+            if _in_vain(hunt, search):
+                break
         peak, lasting, hunt.strongest = first if hopeless else bearable(hunt, near)
         if min(peak, lasting) < 1.0:
             lowered = lowered[0] or peak < 1.0, lowered[1] or lasting < 1.0
@@ -76,6 +81,15 @@ def or_weaker(
             hunt.lowered, hunt.lowered_by = True, ""
         hunt.requirements = weaker(hunt.requirements, peak, lasting)
     return None
+
+
+def _in_vain(hunt: Hunt, search: Callable[[], Found | None]) -> bool:
+    """Whether all designs are short of what no less torque helps with hardly any torque, too."""
+    asked = hunt.requirements
+    hunt.requirements = weaker(asked, LEAST, LEAST)
+    found = search()
+    hunt.requirements = asked
+    return found is None and bool(hunt.short_of)
 
 
 def weaker(requirements: Requirements, peak: float, lasting: float) -> Requirements:
@@ -107,7 +121,7 @@ class Borne(NamedTuple):
 
     def of(self, peak: float, lasting: float) -> Borne:
         """Shares of torques of which so much was asked for."""
-        return Borne(max(peak * self.peak, _LEAST), max(lasting * self.lasting, _LEAST), self.cam)
+        return Borne(max(peak * self.peak, LEAST), max(lasting * self.lasting, LEAST), self.cam)
 
     @property
     def least(self) -> float:

@@ -20,7 +20,7 @@ from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.known import answered, key_of, least_of, near_by, note, own_of
 from cqdd_design.sizing.rings import FAR_SHORT, NOT_FAR, Rings, finer
 from cqdd_design.sizing.search import Search
-from cqdd_design.sizing.shafts import ENDS, THICKNESS
+from cqdd_design.sizing.shafts import ENDS, ROTOR, THICKNESS
 from cqdd_design.sizing.spaces import Found, Space, spaces
 
 _SLACK = 1.08
@@ -197,17 +197,30 @@ def _turn(hunt: Hunt, kind: _Kind) -> tuple[bool, float]:
 def _with_a_shaft(hunt: Hunt, every: Sequence[Found]) -> Found | None:
     """The first design; None where all shafts are so weak that nothing near by will do.
 
-    Torques that nobody stated are lowered instead, then to what the best of them bears.
+    Torques that nobody stated are lowered instead, then to what the best of them bears; but not
+    where all are short of what no less torque helps.
     """
     best = next(iter(every), None)
+    hunt.short_of = ()
     hopeless = best is not None and _shaft_margin(best) < _HOPELESS
     hunt.shaft_bears = max(map(_shaft_margin, every)) / _HOPELESS if hopeless else 1.0
+    if hopeless and all(_margin_of_any_torque(one) < _HOPELESS for one in every):
+        hunt.short_of = max(every, key=_shaft_margin).weak
     return None if hopeless else best
 
 
 def _shaft_margin(found: Found) -> float:
     """The least margin of what is too weak of a design's shaft."""
     return min((line.margin if line.known else 0.0 for line in found.weak), default=math.inf)
+
+
+def _margin_of_any_torque(found: Found) -> float:
+    """The least margin of what a weak design is short of whatever its torque.
+
+    Of its rotor's pull, and of ends that no bearing fits.
+    """
+    lines = (line for line in found.weak if line.id in ROTOR or not line.known)
+    return min((line.margin if line.known else 0.0 for line in lines), default=math.inf)
 
 
 def _bears(hunt: Hunt, found: Found) -> float:

@@ -16,7 +16,7 @@ from cqdd_design.design import Requirements
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.geometry.scale import largest_ring
 from cqdd_design.sizing.able import CONTINUOUS, PEAK, TooHotError
-from cqdd_design.sizing.bearable import both_bearable
+from cqdd_design.sizing.bearable import LEAST, both_bearable, weaker
 from cqdd_design.sizing.frame import Goal
 from cqdd_design.sizing.hunt import Hunt, Progress
 from cqdd_design.sizing.infeasible import SizingInfeasibleError
@@ -99,7 +99,8 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
         most, lasting = fits.peak_torque, fits.continuous_torque
         ways.append(f"peak_torque {most:g} N*m with continuous_torque {lasting:g} N*m")
     if not less.hopeless:
-        doubtful = _Way(hunt, None, refusal).doubtful
+        # What torque nobody stated has to fit is not known before a search.
+        doubtful = PEAK in asked.derived or _Way(hunt, None, refusal).doubtful
         for key, limit in _limits(hunt):
             hunt.say(f"looking for the least {key} that fits, up to {1e3 * limit:g} mm")
             needed[key] = need = _least(less.hunt, asked, key, limit, doubtful=doubtful)
@@ -148,11 +149,15 @@ def _limits(hunt: Hunt) -> Iterator[tuple[str, float]]:
 
 
 def _bears(hunt: Hunt, asked: Requirements) -> bool:
-    """Whether the equilibrium bears a design out, with what the hunt knows of part errors."""
-    some = _new(hunt, asked)
+    """Whether the equilibrium bears a design out, with what the hunt knows of part errors.
+
+    For hardly any torque where none was stated: a search lowers it as far as it has to.
+    """
+    any_torque = PEAK in asked.derived
+    some = _new(hunt, weaker(asked, LEAST, LEAST) if any_torque else asked)
     some.extra_of, some.fit = hunt.extra_of, hunt.fit
     try:
-        if both_bearable(some) < _NEARLY:
+        if not any_torque and both_bearable(some) < _NEARLY:
             return False
         found = next(iter(ranked(some, thorough=False)), None)
     except InfeasibleError:
@@ -168,7 +173,7 @@ def _least(
     Parameters
     ----------
     doubtful : bool
-        Whether the most may not help either, which is tried first then.
+        Whether the most is tried first: it may not help either, or for less torque than is asked.
     """
 
     def stating(length: float) -> Requirements:

@@ -7,6 +7,7 @@ from dataclasses import replace
 from cqdd_design.design import Requirements
 from cqdd_design.gearbox.checks.guide import CHECK_GUIDE
 from cqdd_design.geometry.limits import rounded_down
+from cqdd_design.sizing.able import PEAK
 from cqdd_design.sizing.agreement import RING, strongest
 from cqdd_design.sizing.bearable import both_bearable, times
 from cqdd_design.sizing.finish import torque_reserve
@@ -20,6 +21,7 @@ from cqdd_design.sizing.infeasible import (
     no_design,
 )
 from cqdd_design.sizing.search import Search
+from cqdd_design.sizing.shafts import ROTOR
 from cqdd_design.sizing.spaces import FITS, Found, Space, spaces
 from cqdd_design.verdict import Verdict
 
@@ -69,11 +71,15 @@ def nothing(hunt: Hunt) -> SizingInfeasibleError:
 def _no_shaft(hunt: Hunt) -> SizingInfeasibleError:
     """Teeth and cam bearing bear the loads, but no shaft, or no bearing at its ends."""
     asked, lines = hunt.requirements, hunt.short_of
+    way = "Ask for less torque or give more space"
+    if PEAK in asked.derived:
+        # Less of it was tried, and is not what is wrong.
+        lines = tuple(line for line in lines if line.id in ROTOR or not line.known)
+        way = "Less torque does not help: give more space, or take a motor with a smaller rotor"
     told = "; ".join(f"{line.title.lower()}: {line.substituted}" for line in lines)
     return SizingInfeasibleError(
         f"{_asked(asked)} do not fit in {_space(asked)}: of all designs that bear them at teeth "
-        f"and cam bearing, the one with the strongest shaft is still far short of {told}. Ask for "
-        "less torque or give more space.",
+        f"and cam bearing, the one with the strongest shaft is still far short of {told}. {way}.",
         binding=tuple(line.id for line in lines),
         most_torque=None,
     )

@@ -23,7 +23,9 @@ ENDS = "SUPPORT-STATIC"
 AT_PEAK = frozenset({"SHAFT-STRENGTH", ENDS})
 """Lines of the shaft that less peak torque helps: the strength in proportion, the bearings by less,
 since what the rotor puts on them stays."""
-SHAFT = AT_PEAK | {"SHAFT-FATIGUE", "SUPPORT-LIFE", "SHAFT-ROTOR-GAP", "SHAFT-STUB", BOND}
+ROTOR = frozenset({"SHAFT-ROTOR-GAP", "SHAFT-STUB"})
+"""Lines of what hangs on the shaft's stub, which no less torque helps."""
+SHAFT = AT_PEAK | ROTOR | {"SHAFT-FATIGUE", "SUPPORT-LIFE", BOND}
 """Lines that a cam bearing with a wider bore helps."""
 THICKNESS = frozenset({"SHAFT-STRENGTH", "SHAFT-FATIGUE"})
 """Lines that a thinner shaft does worse."""

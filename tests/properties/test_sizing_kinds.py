@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import nullcontext
 from dataclasses import replace
 from types import SimpleNamespace
@@ -261,7 +262,10 @@ def test_torques_fall_to_what_the_best_of_the_shafts_bears(monkeypatch: pytest.M
     hunt = hunt_for(asked(10, 40.0, 4.0, 1000.0).deriving("peak_torque", "continuous_torque"))
 
     def found(*margins: float | None) -> Any:
-        lines = [SimpleNamespace(known=one is not None, margin=one) for one in margins]
+        lines = [
+            SimpleNamespace(id="SHAFT-STRENGTH", known=one is not None, margin=one)
+            for one in margins
+        ]
         return SimpleNamespace(weak=tuple(lines))
 
     sound, near = found(), found(0.9)
@@ -284,11 +288,15 @@ def test_torques_fall_to_what_the_best_of_the_shafts_bears(monkeypatch: pytest.M
         assert hunt.requirements.peak_torque == peak
 
 
-def weak(*margins: tuple[str, float]) -> Any:
+def weak(*margins: tuple[str, float | None]) -> Any:
     """A design that falls short in lines of its shaft."""
     lines = tuple(
         SimpleNamespace(
-            id=name, known=True, margin=margin, title="Shaft", substituted=f"so much {name}"
+            id=name,
+            known=margin is not None,
+            margin=margin,
+            title="Shaft",
+            substituted=f"so much {name}",
         )
         for name, margin in margins
     )
@@ -315,6 +323,49 @@ def test_where_all_shafts_are_far_too_weak_the_search_ends_and_says_so(
     sound = weak()
     assert _best(hunt, [sound]) is sound
     assert hunt.short_of == ()
+
+
+def test_torque_is_not_lowered_for_what_it_does_not_help(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A rotor that is pulled over on its stub stands still when it is; so do ends without a fit."""
+    free = asked(10, 40.0, 4.0, 1000.0).deriving("peak_torque", "continuous_torque")
+    hunt = hunt_for(free)
+    pulled = weak(("SHAFT-ROTOR-GAP", 0.5))
+    both = weak(("SUPPORT-STATIC", 0.1), ("SHAFT-STUB", 0.4))
+    thin = weak(("SHAFT-STRENGTH", 0.3))
+    unfit = weak(("SUPPORT-STATIC", None))
+    sound = SimpleNamespace(weak=())
+    assert _with_a_shaft(hunt, [both, thin, pulled]) is None
+    assert hunt.short_of == ()
+    monkeypatch.setattr("cqdd_design.sizing.bearable.bearable", lambda *_: Borne(2.0, 3.0, "6903"))
+    tried: list[float] = []
+
+    def searches(*every: list[Any]) -> Callable[[], Any]:
+        turns = iter(every)
+
+        def search() -> Any:
+            tried.append(hunt.requirements.peak_torque)
+            return _with_a_shaft(hunt, next(turns))
+
+        return search
+
+    # With hardly any torque, too, all are short of it.
+    search = searches([thin], [both, unfit, pulled], [unfit, pulled])
+    assert or_weaker(hunt, search, pulled) is None
+    assert tried == [40.0, pytest.approx(20.0, rel=0.06), pytest.approx(0.1 * tried[1], rel=0.1)]
+    assert hunt.requirements.peak_torque == tried[1]
+    assert hunt.short_of == pulled.weak
+    refusal = nothing(hunt)
+    assert refusal.binding == ("SHAFT-ROTOR-GAP",)
+    assert "Less torque does not help" in refusal.message
+
+    # Not so here, so it is lowered as far as it takes, without looking there again.
+    hunt, tried[:] = hunt_for(free), []
+    search = searches([both, pulled], [sound], [pulled], [sound])
+    assert or_weaker(hunt, search, pulled) is sound
+    assert tried[:2] == [40.0, pytest.approx(4.0, rel=0.06)]
+    assert 20.0 < tried[2] < 40.0
+    assert len(tried) == 4
+    assert 0.5 * tried[2] <= tried[3] < tried[2]
 
 
 def test_cam_bearings_like_one_with_far_too_weak_ends_are_not_tried() -> None:

@@ -9,7 +9,7 @@ from cqdd_design.design import requirements_from_mapping
 from cqdd_design.sizing import nearest
 from cqdd_design.sizing.able import TooHotError
 from cqdd_design.sizing.infeasible import SizingInfeasibleError
-from cqdd_design.sizing.verified import size_to_verdict
+from cqdd_design.sizing.verified import new_hunt, size_to_verdict
 
 ASKED = {
     "ratio": 16,
@@ -153,8 +153,29 @@ def test_where_space_may_not_help_the_most_of_it_is_tried_first(monkeypatch):
 def test_torques_that_nobody_stated_are_not_looked_for(monkeypatch):
     given = {"ratio": 16}
     error, tried = said(monkeypatch, lambda _: False, lambda *_: refused("YIELD"), given)
-    assert tried == ["first"]
+    both = "continuous_torque", "peak_torque"
+    assert tried == ["first", (pytest.approx(20.0), both)]
     assert error.message.endswith("were found that do, by the whole verdict.")
+    # What the motor could do may be too much there as well, but not what fits.
+    fits = found(peak_torque=5.0, continuous_torque=1.0)
+    error, tried = said(monkeypatch, lambda _: False, lambda *_: fits, given)
+    assert error.length_needed == pytest.approx(20e-3)
+
+
+def test_for_torques_that_nobody_stated_hardly_any_has_to_be_borne(monkeypatch):
+    peaks = []
+
+    def ranked(hunt, **_):
+        peaks.append(hunt.requirements.peak_torque)
+        return [SimpleNamespace(worth=(False, 1.0))]
+
+    monkeypatch.setattr(nearest, "ranked", ranked)
+    monkeypatch.setattr(nearest, "both_bearable", lambda _: 0.0)
+    stated = requirements_from_mapping(ASKED)
+    hunt = new_hunt(stated, lambda _: None, None, None, "mass")
+    assert not nearest._bears(hunt, stated)
+    assert nearest._bears(hunt, stated.deriving("peak_torque", "continuous_torque"))
+    assert peaks == [pytest.approx(4.5, rel=0.05)]
 
 
 def test_a_ring_that_fills_the_bore_is_not_made_larger():
