@@ -25,6 +25,7 @@ from pathlib import Path
 import numpy as np
 
 from cqdd_design.catalog.motors import Motor, motors
+from cqdd_design.design import load_design
 from cqdd_design.geometry.scale import largest_ring
 from cqdd_design.sizing.motors import lacking
 
@@ -156,10 +157,11 @@ def looked_at(row: Row, *, short: bool) -> tuple[str, bool]:
             return f"{took}  refused: {error.strip().splitlines()[-1]}", True
         if code or sized["results"]["verdict"]["meets"] != "yes":
             return f"{took}  ended with {code}: {error.strip()}", False
-        asked = sized["results"]["design"]["requirements"]
+        asked = load_design(folder / "sized.toml").requirements
         other = difference(folder, "sized.toml", sized, short=short)
         text = f"{took}  yes, {len(_lines(sized))} lines"
-        return f"{text}; {other or 'all commands agree'}  {asked}", not other
+        torques = f"{asked.peak_torque:g} and {asked.continuous_torque:g} N*m"
+        return f"{text}, {torques}; {other or 'all agree'}", not other
 
 
 def _numbers(text: str) -> Iterator[int]:
