@@ -5,8 +5,8 @@
 A row for every ratio with nothing else asked, and for every seed a requirement drawn at random:
 ratio, torques, speed, life, ring, length, air and motor. Each is sized as by a user, in a process
 of its own; of the file that is written `check`, `analyse`, `bench`, `tolerance` and `report` are
-then asked, and every line of their verdicts is compared, to the last digit (`--short`: `check`
-alone). Where `size` refuses, the row is its sentence, and the nearest requirement that it names.
+then asked, and every line of their verdicts is compared, words and numbers (`--short`: `check`
+alone); numbers to nine digits, since a motor's file may state in m what the design states in mm. Where `size` refuses, the row is its sentence, and the nearest requirement that it names.
 Exit code 1 where a verdict is not yes, or any two commands differ.
 """
 
@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import subprocess
 import sys
 import tempfile
@@ -129,7 +130,7 @@ def difference(folder: Path, design: str, sized: dict[str, object], *, short: bo
         lines = _lines(said)
         # The share of gearboxes is no line of `analyse`.
         for name in sorted(({*own, *lines}) - ({"YIELD"} if command == "analyse" else set())):
-            if own.get(name) != lines.get(name):
+            if not _same(own.get(name), lines.get(name)):
                 return f"{command} differs in {name}"
     if not short:
         _, said, _ = told(folder, "tolerance", design, "--samples", "256")
@@ -138,6 +139,14 @@ def difference(folder: Path, design: str, sized: dict[str, object], *, short: bo
         if abs(drawn / figures["backlash_p95"] - 1.0) > 1e-9:
             return "tolerance differs in the backlash"
     return ""
+
+
+def _same(one: object, other: object) -> bool:
+    if isinstance(one, dict) and isinstance(other, dict):
+        return one.keys() == other.keys() and all(_same(one[key], other[key]) for key in one)
+    if isinstance(one, float) and isinstance(other, float):
+        return math.isclose(one, other, rel_tol=1e-9, abs_tol=1e-12)
+    return one == other
 
 
 def _lines(document: dict[str, object]) -> dict[str, object]:
