@@ -5,8 +5,9 @@
 A row for every ratio with nothing else asked, and for every seed a requirement drawn at random:
 ratio, torques, speed, life, ring, length, air and motor. Each is sized as by a user, in a process
 of its own; of the file that is written `check`, `analyse`, `bench`, `tolerance` and `report` are
-then asked, and every line of their verdicts is compared, words and numbers (`--short`: `check`
-alone); numbers to nine digits, since a motor's file may state in m what the design states in mm. Where `size` refuses, the row is its sentence, and the nearest requirement that it names.
+then asked (`--short`: `check` alone), and every line of their verdicts is compared, words and
+numbers, these to nine digits: a motor's file may state in m what the design then states in mm.
+Where `size` refuses, the row is its sentence, with the nearest requirements that it names.
 Exit code 1 where a verdict is not yes, or any two commands differ.
 """
 
