@@ -35,7 +35,7 @@ _LENGTHS = (
     "outer_diameter", "length", "bore_diameter", "gap_diameter", "stack_length", "rotor_length",
     "slot_depth",
 )  # fmt: skip
-_REFUSED = 4
+_REFUSED = 3
 """Exit code of a requirement that does not fit."""
 
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from cqdd_design.design import Requirements
 from cqdd_design.gearbox.checks.guide import CHECK_GUIDE
 from cqdd_design.geometry.limits import rounded_down
+from cqdd_design.results import Check
 from cqdd_design.sizing.able import PEAK
 from cqdd_design.sizing.agreement import RING, strongest
 from cqdd_design.sizing.bearable import both_bearable, times
@@ -139,7 +141,11 @@ def unsettled(found: Found) -> SizingInfeasibleError:
 
 def refused(judged: Verdict) -> SizingInfeasibleError:
     """What stands in the way of the design that came nearest."""
-    short = [line for line in judged.limits if line.status in {"fail", "unknown"}]
+    return short_of([line for line in judged.limits if line.status in {"fail", "unknown"}])
+
+
+def short_of(short: Sequence[Check]) -> SizingInfeasibleError:
+    """What the design that came nearest falls short of, the tightest first."""
     told = "; ".join(
         f"{line.title.lower()}: {line.substituted} ({line.remedy})" for line in short[:4]
     )

@@ -32,10 +32,11 @@ from cqdd_design.sizing.looks import (
     last_look,
     learn,
     look,
+    motor_far_short,
     read_spread,
     take,
 )
-from cqdd_design.sizing.refusals import TRIALS, nothing, refused, unsettled
+from cqdd_design.sizing.refusals import TRIALS, nothing, refused, short_of, unsettled
 from cqdd_design.sizing.result import SizingResult
 from cqdd_design.sizing.rings import finer
 from cqdd_design.sizing.search import Search
@@ -158,6 +159,8 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
         hunt.pins = False, True
     progress("searching by closed forms, held against the contact equilibrium")
     found = or_weaker(hunt, lambda: promising(hunt))
+    if found is not None and (far := motor_far_short(found.sized.machine)):
+        raise short_of(far)
     last: Verdict | None = None
     thorough = hunt.any_will_do
     sound: _Sound | None = None

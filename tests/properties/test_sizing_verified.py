@@ -9,6 +9,7 @@ import math
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -31,11 +32,13 @@ from cqdd_design.sizing.exact import exact_checks, shortfalls
 from cqdd_design.sizing.finish import torque_reserve
 from cqdd_design.sizing.frame import Fit, search_frame
 from cqdd_design.sizing.hunt import Hunt
+from cqdd_design.sizing.infeasible import SizingInfeasibleError
 from cqdd_design.sizing.kinds import lightest
 from cqdd_design.sizing.looks import (
     NothingWiderError,
     clearance_needed,
     learn,
+    motor_far_short,
     read_spread,
     take,
 )
@@ -46,11 +49,13 @@ from cqdd_design.sizing.spaces import FITS, MATERIALS, Found, Space, spaces
 from cqdd_design.sizing.stage_tables import stage_tables
 from cqdd_design.sizing.verified import (
     _next_step,
+    searched,
     size_to_verdict,
 )
 from cqdd_design.verdict import judge
 from cqdd_design.verdict.drawn import Allowed, drawn_gearboxes, used
 from cqdd_design.verdict.joint_lines import bell_line
+from cqdd_design.verdict.motor import motor_lines
 
 DESIGNS = Path(__file__).resolve().parents[2] / "designs"
 
@@ -174,6 +179,44 @@ def test_they_become_what_the_motor_can_do(machine: Machine) -> None:
     assert what_it_can(machine, low, may_rise=False) is None
     with pytest.raises(InfeasibleError, match="holds no torque for ever"):
         what_it_can(machine, first_guess(asked(input_speed="3000 rpm"), None), may_rise=True)
+
+
+def test_a_motor_that_no_gearbox_makes_strong_enough_ends_the_search(
+    machine: Machine, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Not one that is a little short: another gearbox may lose less. Nor what nobody stated."""
+    machine = machine.changed({"requirements.continuous_speed": HELD_SPEED})
+    able = motor_lines(machine, actuator_parameters(machine), "")
+    most, lasting = (
+        next(line.value for line in able if line.id == name)
+        for name in ("MOTOR-PEAK", "MOTOR-CONTINUOUS")
+    )
+    assert most is not None
+    assert lasting is not None
+
+    def short(peak: float, steady: float, *free: str) -> tuple[str, ...]:
+        other = machine.changed(
+            {"requirements.peak_torque": peak, "requirements.continuous_torque": steady}
+        )
+        left_out = other.design.requirements.deriving(*free)
+        other = resolve(other.design.model_copy(update={"requirements": left_out}))
+        return tuple(line.id for line in motor_far_short(other))
+
+    # What is held for ever hangs a little on the torque, by what parts rub and are warm.
+    assert short(0.9 * most, 0.9 * lasting) == ()
+    assert short(1.3 * most, 1.3 * lasting) == ()
+    assert short(1.6 * most, 0.9 * lasting) == ("MOTOR-PEAK",)
+    assert short(1.6 * most, 0.9 * lasting, "peak_torque") == ()
+    assert short(1.3 * most, 2.5 * lasting) == ("MOTOR-CONTINUOUS",)
+
+    hunt = Hunt(machine.design.requirements, None, None, lambda _: None, stage_tables(10), "mass")
+    weak = SimpleNamespace(sized=SimpleNamespace(machine=machine))
+    far = able[:1]
+    monkeypatch.setattr("cqdd_design.sizing.verified.or_weaker", lambda *_: weak)
+    monkeypatch.setattr("cqdd_design.sizing.verified.motor_far_short", lambda _: far)
+    with pytest.raises(SizingInfeasibleError) as caught:
+        searched(hunt, machine.design.requirements)
+    assert caught.value.binding == (far[0].id,)
 
 
 def test_only_what_was_not_stated_grows_weaker() -> None:
