@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -141,7 +142,16 @@ def unsettled(found: Found) -> SizingInfeasibleError:
 
 def refused(judged: Verdict) -> SizingInfeasibleError:
     """What stands in the way of the design that came nearest."""
-    return short_of([line for line in judged.limits if line.status in {"fail", "unknown"}])
+    return short_of(_short(judged))
+
+
+def least_margin(judged: Verdict) -> float:
+    """How near a verdict is to a yes: the least margin of its lines, 0 of what is not known."""
+    return min((line.margin if line.known else 0.0 for line in _short(judged)), default=math.inf)
+
+
+def _short(judged: Verdict) -> list[Check]:
+    return [line for line in judged.limits if line.status in {"fail", "unknown"}]
 
 
 def short_of(short: Sequence[Check]) -> SizingInfeasibleError:

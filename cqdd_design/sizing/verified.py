@@ -36,7 +36,7 @@ from cqdd_design.sizing.looks import (
     read_spread,
     take,
 )
-from cqdd_design.sizing.refusals import TRIALS, nothing, refused, short_of, unsettled
+from cqdd_design.sizing.refusals import TRIALS, least_margin, nothing, refused, short_of, unsettled
 from cqdd_design.sizing.result import SizingResult
 from cqdd_design.sizing.rings import finer
 from cqdd_design.sizing.search import Search
@@ -161,7 +161,7 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
     found = or_weaker(hunt, lambda: promising(hunt))
     if found is not None and (far := motor_far_short(found.sized.machine)):
         raise short_of(far)
-    last: Verdict | None = None
+    nearest: Verdict | None = None
     thorough = hunt.any_will_do
     sound: _Sound | None = None
     for trial in range(_FEW if hunt.any_will_do and not requirements.derived else TRIALS):
@@ -206,13 +206,14 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
                 # Nearly every design that comes so far is the answer.
                 with ThreadPoolExecutor(1) as beside:
                     result = beside.submit(_result, _aside(hunt), found, began)
-                    last = judge(found.sized.machine)
-                if last.meets == "yes":
-                    return _verified(hunt, result.result(), last, requirements)
-                if _turned(hunt, found, last):
+                    judged = judge(found.sized.machine)
+                if judged.meets == "yes":
+                    return _verified(hunt, result.result(), judged, requirements)
+                nearest = judged if nearest is None else max(nearest, judged, key=least_margin)
+                if _turned(hunt, found, judged):
                     found = or_weaker(hunt, lambda: lightest(hunt))
                     continue
-                step = _next_step(hunt, found, last)
+                step = _next_step(hunt, found, judged)
                 if step is None:
                     break
                 if (less := eased(hunt, found, _least_left(hunt, trial))) is not None:
@@ -224,8 +225,8 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
         # More clearance or less torque is given to the same gearbox, reserve to another.
         same = given(hunt, found) if can is not None or step else None
         found = _again(hunt, found) if same is None else same
-    if last is not None:
-        raise refused(last)
+    if nearest is not None:
+        raise refused(nearest)
     raise nothing(hunt) if found is None else unsettled(found)
 
 

@@ -6,6 +6,7 @@ That what it writes is a yes is in tests/cli/test_cli_size.py.
 from __future__ import annotations
 
 import math
+from contextlib import nullcontext
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
@@ -42,7 +43,7 @@ from cqdd_design.sizing.looks import (
     read_spread,
     take,
 )
-from cqdd_design.sizing.refusals import unsettled
+from cqdd_design.sizing.refusals import least_margin, unsettled
 from cqdd_design.sizing.reserves import ring_reserves
 from cqdd_design.sizing.shafts import stronger_shaft
 from cqdd_design.sizing.spaces import FITS, MATERIALS, Found, Space, spaces
@@ -217,6 +218,62 @@ def test_a_motor_that_no_gearbox_makes_strong_enough_ends_the_search(
     with pytest.raises(SizingInfeasibleError) as caught:
         searched(hunt, machine.design.requirements)
     assert caught.value.binding == (far[0].id,)
+
+
+def test_a_refusal_tells_of_the_judged_design_that_came_nearest(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Not of the last one, and what is not known is far from a yes."""
+
+    def judged(**margins: float | None) -> Any:
+        lines = [
+            SimpleNamespace(
+                id=name,
+                status="unknown" if margin is None else "fail",
+                known=margin is not None,
+                margin=margin,
+                value=margin,
+                title=name,
+                substituted="so much",
+                remedy="do better",
+            )
+            for name, margin in margins.items()
+        ]
+        return SimpleNamespace(meets="no", limits=lines)
+
+    near, far = judged(MASS=0.9, EFFICIENCY=0.97), judged(MASS=0.99, YIELD=0.4)
+    unknown = judged(MASS=0.99, STIFFNESS=None)
+    assert [least_margin(one) for one in (near, far, unknown)] == [0.9, 0.4, 0.0]
+
+    found = SimpleNamespace(
+        weak=(),
+        rated=True,
+        cam="",
+        sized=SimpleNamespace(machine=None, design=SimpleNamespace(name="sized-10")),
+    )
+    verdicts = iter([far, near, unknown])
+    turns = iter([True, True, False])
+    place = "cqdd_design.sizing.verified."
+    for name, answer in {
+        "or_weaker": lambda *_: found,
+        "motor_far_short": lambda _: (),
+        "learn": lambda *_: False,
+        "drawing_ahead": lambda _: nullcontext(),
+        "look": lambda *_: (None, None),
+        "last_look": lambda *_: None,
+        "eased": lambda *_: None,
+        "_result": lambda *_: None,
+        "judge": lambda _: next(verdicts),
+        "_turned": lambda *_: next(turns),
+        "_next_step": lambda *_: None,
+    }.items():
+        monkeypatch.setattr(place + name, answer)
+    hunt = hunt_of_what_is_assumed()
+    hunt.any_will_do = True
+    with pytest.raises(SizingInfeasibleError) as caught:
+        searched(hunt, hunt.requirements)
+    assert caught.value.binding == ("MASS", "EFFICIENCY")
+    assert next(verdicts, None) is None
 
 
 def test_only_what_was_not_stated_grows_weaker() -> None:
