@@ -90,10 +90,10 @@ def learn(hunt: Hunt, found: Found) -> bool:
     return True
 
 
-def motor_far_short(machine: Machine) -> tuple[Check, ...]:
+def motor_far_short(hunt: Hunt, machine: Machine) -> tuple[Check, ...]:
     """Lines of stated torques of which the motor is too far short for another gearbox to help."""
-    asked = machine.design.requirements
-    if asked.derived >= {PEAK, CONTINUOUS}:
+    free = hunt.requirements.derived
+    if free >= {PEAK, CONTINUOUS}:
         return ()
     rigid = replace(machine, stiff=True)
     try:
@@ -103,7 +103,7 @@ def motor_far_short(machine: Machine) -> tuple[Check, ...]:
     far = []
     for line in lines:
         torque, least = _FAR_SHORT.get(line.id, (PEAK, 0.0))
-        if line.known and line.margin < least and torque not in asked.derived:
+        if line.known and line.margin < least and torque not in free:
             far.append(line)
     return tuple(far)
 

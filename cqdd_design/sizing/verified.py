@@ -159,7 +159,7 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
         hunt.pins = False, True
     progress("searching by closed forms, held against the contact equilibrium")
     found = or_weaker(hunt, lambda: promising(hunt))
-    if found is not None and (far := motor_far_short(found.sized.machine)):
+    if found is not None and (far := motor_far_short(hunt, found.sized.machine)):
         raise short_of(far)
     nearest: Verdict | None = None
     thorough = hunt.any_will_do

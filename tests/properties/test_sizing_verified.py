@@ -199,9 +199,9 @@ def test_a_motor_that_no_gearbox_makes_strong_enough_ends_the_search(
         other = machine.changed(
             {"requirements.peak_torque": peak, "requirements.continuous_torque": steady}
         )
-        left_out = other.design.requirements.deriving(*free)
-        other = resolve(other.design.model_copy(update={"requirements": left_out}))
-        return tuple(line.id for line in motor_far_short(other))
+        stated = other.design.requirements.deriving(*free)
+        hunt = Hunt(stated, None, None, lambda _: None, stage_tables(10), "mass")
+        return tuple(line.id for line in motor_far_short(hunt, other))
 
     # What is held for ever hangs a little on the torque, by what parts rub and are warm.
     assert short(0.9 * most, 0.9 * lasting) == ()
@@ -214,7 +214,7 @@ def test_a_motor_that_no_gearbox_makes_strong_enough_ends_the_search(
     weak = SimpleNamespace(sized=SimpleNamespace(machine=machine))
     far = able[:1]
     monkeypatch.setattr("cqdd_design.sizing.verified.or_weaker", lambda *_: weak)
-    monkeypatch.setattr("cqdd_design.sizing.verified.motor_far_short", lambda _: far)
+    monkeypatch.setattr("cqdd_design.sizing.verified.motor_far_short", lambda *_: far)
     with pytest.raises(SizingInfeasibleError) as caught:
         searched(hunt, machine.design.requirements)
     assert caught.value.binding == (far[0].id,)
@@ -256,7 +256,7 @@ def test_a_refusal_tells_of_the_judged_design_that_came_nearest(
     place = "cqdd_design.sizing.verified."
     for name, answer in {
         "or_weaker": lambda *_: found,
-        "motor_far_short": lambda _: (),
+        "motor_far_short": lambda *_: (),
         "learn": lambda *_: False,
         "drawing_ahead": lambda _: nullcontext(),
         "look": lambda *_: (None, None),
