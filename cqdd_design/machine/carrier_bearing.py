@@ -17,7 +17,7 @@ from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 from cqdd_design.gearbox.output_bearing import OutputLoad, dynamic_load, static_load
 from cqdd_design.gearbox.pack_loads import PackLoads
 from cqdd_design.machine.machine import Machine
-from cqdd_design.machine.shaft_strength import output_loads
+from cqdd_design.machine.output_loads import output_loads
 from cqdd_design.solids.proportions import carrier_bearings
 
 _ANGLES = 40

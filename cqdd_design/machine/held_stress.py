@@ -24,8 +24,9 @@ from cqdd_design.gearbox.output_bearing import OutputLoad
 from cqdd_design.gearbox.pack_loads import PackLoads
 from cqdd_design.geometry.contours import ComplexArray, FloatArray
 from cqdd_design.machine.machine import Machine
+from cqdd_design.machine.output_loads import output_loads
 from cqdd_design.machine.shaft import disc_heights, knife_edges
-from cqdd_design.machine.shaft_strength import carried_shares, output_loads
+from cqdd_design.machine.shaft_strength import carried_shares
 from cqdd_design.solids.features.carrier import OUTPUT_BOLTS, cap_features, plate_features
 from cqdd_design.solids.features.holes import FittedHole, TappedHole
 from cqdd_design.solids.features.kinds import AxialThread, Feature

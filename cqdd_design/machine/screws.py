@@ -9,7 +9,7 @@ from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.catalog.threads import coarse_thread, thread_named
 from cqdd_design.catalog.tightening import GRIP_FRICTION, Clamping
 from cqdd_design.machine.machine import Machine
-from cqdd_design.machine.shaft_strength import output_loads
+from cqdd_design.machine.output_loads import output_loads
 from cqdd_design.solids import mounting
 from cqdd_design.solids.features.carrier import OUTPUT_BOLTS
 from cqdd_design.solids.motor_rules import bell_torque

@@ -11,7 +11,6 @@ from cqdd_design.catalog.bearings import least_chamfer, shaft_material
 from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.errors import CatalogError
 from cqdd_design.gearbox.checks.allowables import shaft_limit_fatigue
-from cqdd_design.gearbox.output_bearing import OutputLoad
 from cqdd_design.gearbox.pack_loads import PackLoads
 from cqdd_design.gearbox.shaft_strength import Step, StepStress, step_stress
 from cqdd_design.geometry.contours import Circle, ComplexArray, FloatArray
@@ -196,33 +195,3 @@ def with_still_force(turning: FloatArray, still: FloatArray) -> FloatArray:
     towards = np.exp(2j * np.pi * np.arange(_BETWEEN) / _BETWEEN)[:, None]
     both = np.abs(turning[:, :, None, :] + towards * still)
     return np.asarray(both.reshape(len(turning), -1, len(still)))
-
-
-def output_loads(machine: Machine, loads: PackLoads, external: float = 1.0) -> OutputLoad:
-    """What the bearing between carrier and housing holds, (C, A).
-
-    Of the pins and of the shaft's upper bearing, which sits in the carrier, and of the external
-    loads that the requirements state, whose direction is not known: they add up.
-
-    Parameters
-    ----------
-    external : float
-        Share of the external loads that counts.
-
-    Raises
-    ------
-    GeometryError
-        When the machine cannot be laid out.
-    """
-    layout, asked = machine.layout, machine.design.requirements
-    at, edges = disc_heights(layout.pack), knife_edges(layout.shaft)
-    carrier = layout.carrier
-    middle = carrier.bearing_bottom + 0.5 * carrier.output.bearing.width
-    held = loads.on_shaft @ carried_shares(at, edges)[1]
-    across = np.abs(loads.on_carrier.sum(axis=2) + held)
-    tilting = np.abs(loads.on_carrier @ (at - middle) + held * (edges[1] - middle))
-    return OutputLoad(
-        radial=across + external * (asked.external_radial or 0.0),
-        axial=np.full(across.shape, external * (asked.external_axial or 0.0)),
-        moment=tilting + external * (asked.external_moment or 0.0),
-    )

@@ -23,9 +23,9 @@ from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine
 from cqdd_design.machine.carrier_bearing import bearing_for_loads
+from cqdd_design.machine.output_loads import output_loads
 from cqdd_design.machine.rotor_overhang import rotor_overhang
 from cqdd_design.machine.shaft_strength import (
-    output_loads,
     shaft_strength,
     support_loads,
     with_still_force,
@@ -55,7 +55,7 @@ def shaft_lines(machine: Machine) -> tuple[Check, ...]:
             *_strength(machine, peak, duty),
             _support_static(machine, peak, rotor),
             _support_life(machine, duty, rotor),
-            *_output(machine, peak, duty),
+            *_output(machine, peak, duty, rotor),
         )
     except (CatalogError, ContactError, GeometryError) as error:
         return tuple(
@@ -155,12 +155,14 @@ def _support_life(machine: Machine, duty: PackLoads, rotor: _Rotor) -> Check:
     return _life("SUPPORT-LIFE", machine, chosen.bearing if known else None, loads, slip, _WIDER)
 
 
-def _output(machine: Machine, peak: PackLoads, duty: PackLoads) -> tuple[Check, Check]:
+def _output(
+    machine: Machine, peak: PackLoads, duty: PackLoads, rotor: _Rotor
+) -> tuple[Check, Check]:
     """Static safety and life, and another bearing where this one has too little of either."""
 
     def both(remedy: str, external: float = 1.0) -> tuple[Check, Check]:
         return (
-            _output_static(machine, output_loads(machine, peak, external), remedy),
+            _output_static(machine, output_loads(machine, peak, external), remedy, rotor),
             _output_life(machine, output_loads(machine, duty, external), remedy),
         )
 
@@ -194,12 +196,12 @@ def _less_from_outside(machine: Machine, passes: Callable[[float], bool]) -> str
     return f"lower {' and '.join(told)}"
 
 
-def _output_static(machine: Machine, load: OutputLoad, remedy: str) -> Check:
+def _output_static(machine: Machine, load: OutputLoad, remedy: str, rotor: _Rotor) -> Check:
     asked, row = machine.design.requirements, machine.seats[1].bearing
     most = float(static_load(row, load).max())
     words = (
-        f"{load.radial.max():.0f} N across, {load.axial.max():.0f} N along, "
-        f"{load.moment.max():.3g} N*m tilting"
+        f"{load.radial.max():.0f} N across, {rotor.told(1)}, "
+        f"{load.axial.max():.0f} N along, {load.moment.max():.3g} N*m tilting"
     )
     if row.static_rating is None:
         told = f"{row.designation} under {words}: its rating is not known"

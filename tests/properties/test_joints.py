@@ -23,8 +23,8 @@ from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.dowels import loaded_dowels, ring_torque
 from cqdd_design.machine.heat_nodes import NODES
+from cqdd_design.machine.output_loads import output_loads
 from cqdd_design.machine.screws import ScrewJoint, screw_joints
-from cqdd_design.machine.shaft_strength import output_loads
 from cqdd_design.machine.temperatures import MachineTemperatures
 from cqdd_design.results import Check
 from cqdd_design.solids.motor_rules import bell_torque

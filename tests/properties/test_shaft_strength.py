@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 from cqdd_design.catalog.bearings import find_bearing
 from cqdd_design.design import load_design
+from cqdd_design.errors import DesignError
 from cqdd_design.gearbox.contact.rubbing import ContactFriction
 from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
@@ -28,10 +29,11 @@ from cqdd_design.gearbox.shaft_strength import (
     torsion_notch,
 )
 from cqdd_design.machine import Machine, resolve
-from cqdd_design.machine.rotor_overhang import rotor_overhang
+from cqdd_design.machine.output_loads import output_loads
+from cqdd_design.machine.rotor_overhang import RotorOverhang, rotor_overhang
 from cqdd_design.machine.shaft import disc_heights, knife_edges, shaft_bending
 from cqdd_design.machine.shaft_strength import (
-    output_loads,
+    carried_shares,
     section_loads,
     shaft_steps,
     shaft_strength,
@@ -177,14 +179,41 @@ def test_bearings_carry_what_the_bent_shaft_says(
 ) -> None:
     bending = shaft_bending(machine, sweeps)
     assert support_loads(machine, loads).max(axis=(0, 1)) == pytest.approx(bending.support_load)
-    assert output_loads(machine, loads).moment.max() == pytest.approx(bending.carrier_moment)
+    # The force on the rotor stands still, and the upper bearing holds its end of the shaft down.
+    rotor, held = rotor_overhang(machine).on_bearings[1], output_loads(machine, loads)
+    assert rotor > 20.0
+    carrier = machine.layout.carrier
+    middle = carrier.bearing_bottom + 0.5 * carrier.output.bearing.width
+    arm = abs(knife_edges(machine.layout.shaft)[1] - middle)
+    assert held.moment.max() - rotor * arm == pytest.approx(bending.carrier_moment)
+    upper = (
+        loads.on_shaft
+        @ carried_shares(disc_heights(machine.layout.pack), knife_edges(machine.layout.shaft))[1]
+    )
+    across = np.abs(loads.on_carrier.sum(axis=2) + upper)
+    assert np.allclose(held.radial, across + rotor)
+
+
+def test_a_rotor_of_which_nothing_is_known_is_said_to_be_left_out(
+    machine: Machine, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def unknown(_: Machine) -> RotorOverhang:
+        raise DesignError("no rotor is drawn")
+
+    known = {one.id: one.substituted for one in shaft_lines(machine)}
+    assert " N of it from the rotor" in known["OUTPUT-STATIC"]
+    for place in ("machine.output_loads", "verdict.shaft_lines"):
+        monkeypatch.setattr(f"cqdd_design.{place}.rotor_overhang", unknown)
+    told = {one.id: one.substituted for one in shaft_lines(machine)}
+    for line in ("SUPPORT-STATIC", "OUTPUT-STATIC"):
+        assert "without the rotor" in told[line]
 
 
 def test_what_hangs_on_the_output_adds_up(machine: Machine, loads: PackLoads) -> None:
-    free = output_loads(machine, loads)
     asked = {"external_moment": "12 N*m", "external_axial": "300 N", "external_radial": "0.2 kN"}
     loaded = machine.changed({f"requirements.{key}": value for key, value in asked.items()})
-    held = output_loads(loaded, loads)
+    # Another layout, with another lever of the rotor.
+    free, held = (output_loads(loaded, loads, external) for external in (0.0, 1.0))
     assert np.allclose(held.moment - free.moment, 12.0)
     assert np.allclose(held.axial - free.axial, 300.0)
     assert np.allclose(held.radial - free.radial, 200.0)
