@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 import yaml
+from rattler_build import RecipeParseError, Stage0Recipe
 
 import cqdd_design
 
@@ -152,6 +153,21 @@ def test_the_sample_report_is_one_light_file():
     assert len(sample) < 2_000_000
     for chapter in ("machine", "contact", "tolerances", "bench", "bom", "downloads", "planetary"):
         assert f'id="{chapter}"'.encode() in sample
+
+
+def test_rattler_build_renders_the_recipe(project):
+    """By the tool that conda-forge builds with: keys, jinja and versions as it takes them."""
+    path = REPOSITORY / "recipe" / "recipe.yaml"
+    (variant,) = Stage0Recipe.from_file(path).render()
+    recipe = variant.recipe.to_dict()
+    assert recipe["package"] == {"name": "cqdd-design", "version": cqdd_design.__version__}
+    assert recipe["build"]["noarch"] == "python"
+    run = [one.replace(" ", "") for one in recipe["requirements"]["run"]]
+    assert run == [f"python{project['requires-python']}", *project["dependencies"]]
+    assert recipe["tests"][1]["script"][-1].startswith("cqdd-design size")
+    for right, wrong in (("requirements:", "requirement:"), ("${{ version }}", "${{ version")):
+        with pytest.raises(RecipeParseError):
+            Stage0Recipe.from_yaml(path.read_text(encoding="utf-8").replace(right, wrong))
 
 
 def test_the_recipe_of_conda_forge_asks_for_what_the_package_asks_for(project):
