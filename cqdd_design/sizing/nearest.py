@@ -10,16 +10,18 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from cqdd_design.catalog.motors import Motor, find_motor
 from cqdd_design.design import Requirements
 from cqdd_design.errors import InfeasibleError
+from cqdd_design.gearbox.checks.guide import CHECK_GUIDE
 from cqdd_design.geometry.scale import largest_ring
 from cqdd_design.sizing.able import CONTINUOUS, PEAK, TooHotError
 from cqdd_design.sizing.bearable import LEAST, both_bearable, weaker
 from cqdd_design.sizing.frame import Goal
 from cqdd_design.sizing.hunt import Hunt, Progress
-from cqdd_design.sizing.infeasible import SizingInfeasibleError
+from cqdd_design.sizing.infeasible import SizingInfeasibleError, listed
 from cqdd_design.sizing.kinds import ranked
 from cqdd_design.sizing.verified import VerifiedDesign, new_hunt, searched
 
@@ -56,10 +58,23 @@ class _Way:
         return isinstance(self.refusal, TooHotError)
 
     @property
+    def beyond_space(self) -> tuple[str, ...]:
+        """Lines that it fell short of and that space hardly helps."""
+        lines = self.refusal.binding if isinstance(self.refusal, SizingInfeasibleError) else ()
+        return tuple(line for line in lines if line.startswith(_NO_SPACE))
+
+    @property
     def doubtful(self) -> bool:
         """Whether it failed for what space hardly helps, among others."""
-        lines = self.refusal.binding if isinstance(self.refusal, SizingInfeasibleError) else ()
-        return self.hopeless or any(line.startswith(_NO_SPACE) for line in lines)
+        return self.hopeless or bool(self.beyond_space)
+
+
+class _Need(NamedTuple):
+    """The smallest length that fits, m; or one that does not and what it is still short of."""
+
+    length: float | None
+    tried: float | None = None
+    beyond_space: tuple[str, ...] = ()
 
 
 def size_or_nearest(
@@ -92,7 +107,7 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
     if PEAK not in asked.derived and not asked.load_cases:
         hunt.say("looking for the torques that fit")
         less = _tried(hunt, asked.deriving(PEAK, CONTINUOUS))
-    ways, needed = [], {}
+    ways, needed, still = [], {}, {}
     most = lasting = None
     if less.found is not None:
         fits = less.found.sizing.design.requirements
@@ -103,8 +118,11 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
         doubtful = PEAK in asked.derived or _Way(hunt, None, refusal).doubtful
         for key, limit in _limits(hunt):
             hunt.say(f"looking for the least {key} that fits, up to {1e3 * limit:g} mm")
-            needed[key] = need = _least(less.hunt, asked, key, limit, doubtful=doubtful)
-            ways += [] if need is None else [f"{key} {1e3 * need:g} mm"]
+            need = _least(less.hunt, asked, key, limit, doubtful=doubtful)
+            needed[key] = need.length
+            ways += [] if need.length is None else [f"{key} {1e3 * need.length:g} mm"]
+            if need.tried is not None and need.beyond_space:
+                still[f"{key} {1e3 * need.tried:g} mm"] = need.beyond_space
     if ways:
         told = f"What fits, by the whole verdict: {', or '.join(ways)}."
     elif less.refusal is not None and less.refusal is not refusal:
@@ -112,6 +130,10 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
         told = f"Less torque does not help: {why}."
     else:
         told = "No larger ring and no longer discs were found that do, by the whole verdict."
+    if still:
+        short = dict.fromkeys(line for lines in still.values() for line in lines)
+        words = listed([CHECK_GUIDE[line].title.lower() for line in short])
+        told += f" With {' or '.join(still)} it is still short of {words}."
     return SizingInfeasibleError(
         f"{refusal.message.rstrip('.')}. {told}",
         binding=refusal.binding,
@@ -165,10 +187,8 @@ def _bears(hunt: Hunt, asked: Requirements) -> bool:
     return found is not None and not found.worth[0]
 
 
-def _least(
-    hunt: Hunt, asked: Requirements, key: str, limit: float, *, doubtful: bool
-) -> float | None:
-    """The smallest ring or length with which the verdict is yes, near enough, m.
+def _least(hunt: Hunt, asked: Requirements, key: str, limit: float, *, doubtful: bool) -> _Need:
+    """The smallest ring or length with which the verdict is yes, near enough.
 
     Parameters
     ----------
@@ -181,14 +201,14 @@ def _least(
         changed.model_fields_set.add(key)
         return changed
 
-    if doubtful and _tried(hunt, stating(limit)).found is None:
-        return None
+    if doubtful and (most := _tried(hunt, stating(limit))).found is None:
+        return _Need(None, limit, most.beyond_space)
     surely = limit if doubtful else None
     low, known = getattr(asked, key), hunt
     for _ in range(_ROUNDS):
         high = limit
         if not _bears(known, stating(high)):
-            return surely
+            return _Need(surely)
         while high > (1.0 + _CLOSE) * low:
             middle = min(_up(math.sqrt(low * high)), round(high - _STEP, 9))
             if middle <= low:
@@ -196,14 +216,14 @@ def _least(
             low, high = (low, middle) if _bears(known, stating(middle)) else (middle, high)
         way = _tried(hunt, stating(high))
         if way.found is not None:
-            return high
+            return _Need(high)
         if way.doubtful and not doubtful:
-            return None
+            return _Need(None, high, way.beyond_space)
         # It has learnt what part errors take there.
         low, known = _up(_ON * high) - _STEP, way.hunt
         if low >= limit:
             break
-    return surely
+    return _Need(surely)
 
 
 def _up(length: float) -> float:

@@ -128,6 +128,10 @@ def test_where_space_may_not_help_the_most_of_it_is_tried_first(monkeypatch):
     assert error.length_needed is None
     assert error.to_dict()["most_peak_torque_Nm"] == 15.0
     assert [one[0] for one in tried[2:]] == [20.0]
+    assert error.message.endswith(
+        "continuous_torque 5 N*m. With length 20 mm it is still short of steady temperature "
+        "of winding, grease and housing."
+    )
 
     def if_long(length, derived):
         return torques if derived or length > 14.2 else hot
@@ -148,6 +152,7 @@ def test_where_space_may_not_help_the_most_of_it_is_tried_first(monkeypatch):
     error, tried = said(monkeypatch, lambda length: length >= 13.2, if_long)
     assert error.length_needed is None
     assert len(tried) == 3
+    assert "With length 13.5 mm it is still short of steady temperature" in error.message
 
 
 def test_torques_that_nobody_stated_are_not_looked_for(monkeypatch):
