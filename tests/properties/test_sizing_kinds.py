@@ -431,6 +431,7 @@ def test_any_design_is_judged_as_it_was_found(monkeypatch: pytest.MonkeyPatch) -
     one = SimpleNamespace(weak=(), rated=True, cam="6803", sized=sized)
     answers: dict[str, Any] = {
         "promising": one,
+        "motor_far_short": (),
         "learn": False,
         "drawing_ahead": nullcontext(),
         "look": (None, None),
@@ -644,6 +645,7 @@ def test_clearance_that_is_asked_for_late_is_given_to_the_same_gearbox(
 
     monkeypatch.setattr(road + "promising", lambda _: first)
     monkeypatch.setattr(road + "lightest", lightest_of)
+    monkeypatch.setattr(road + "motor_far_short", lambda *_: ())
     monkeypatch.setattr(road + "learn", lambda *_: False)
     monkeypatch.setattr(road + "finer", lambda _, one: one)
     monkeypatch.setattr(road + "look", lambda *_: (None, next(steps)))
