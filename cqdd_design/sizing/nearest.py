@@ -8,7 +8,7 @@ take; what is told has been searched to the verdict just as whoever asks for it 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -21,7 +21,7 @@ from cqdd_design.sizing.able import CONTINUOUS, PEAK, TooHotError
 from cqdd_design.sizing.bearable import LEAST, both_bearable, weaker
 from cqdd_design.sizing.frame import Goal
 from cqdd_design.sizing.hunt import Hunt, Progress
-from cqdd_design.sizing.infeasible import SizingInfeasibleError, listed
+from cqdd_design.sizing.infeasible import WORDS, SizingInfeasibleError, listed
 from cqdd_design.sizing.kinds import ranked
 from cqdd_design.sizing.verified import VerifiedDesign, new_hunt, searched
 
@@ -126,13 +126,11 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
     if ways:
         told = f"What fits, by the whole verdict: {', or '.join(ways)}."
     elif less.refusal is not None and less.refusal is not refusal:
-        why = less.refusal.message.partition(";")[0].rstrip(".")
-        told = f"Less torque does not help: {why}."
+        told = f"Less torque does not help: {_why(less.refusal)}."
     else:
         told = "No larger ring and no longer discs were found that do, by the whole verdict."
     if still:
-        short = dict.fromkeys(line for lines in still.values() for line in lines)
-        words = listed([CHECK_GUIDE[line].title.lower() for line in short])
+        words = _titles(line for lines in still.values() for line in lines)
         told += f" With {' or '.join(still)} it is still short of {words}."
     return SizingInfeasibleError(
         f"{refusal.message.rstrip('.')}. {told}",
@@ -142,6 +140,18 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
         outer_diameter_needed=needed.get("outer_diameter"),
         length_needed=needed.get("length"),
     )
+
+
+def _why(refusal: InfeasibleError) -> str:
+    """In words, without what may be done about it."""
+    if isinstance(refusal, SizingInfeasibleError):
+        return f"the nearest is short of {_titles(refusal.binding)}"
+    return refusal.message.partition(";")[0].rstrip(".")
+
+
+def _titles(lines: Iterable[str]) -> str:
+    words = (WORDS.get(one, CHECK_GUIDE[one].title.lower()) for one in lines)
+    return listed(list(dict.fromkeys(words)))
 
 
 def _tried(hunt: Hunt, asked: Requirements) -> _Way:

@@ -112,6 +112,10 @@ def test_where_less_torque_does_not_help_neither_does_space(monkeypatch):
     assert error.message == ("it does not fit. Less torque does not help: the motor holds nothing.")
     assert len(tried) == 2
     error, tried = said(monkeypatch, lambda _: True, lambda *_: refused("MOTOR-PEAK", "EFFICIENCY"))
+    assert error.message == (
+        "it does not fit. Less torque does not help: the nearest is short of peak torque of motor "
+        "and driver at standstill and efficiency of the gearbox."
+    )
     assert error.length_needed is None
     assert len(tried) == 2
 
