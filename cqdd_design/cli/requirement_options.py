@@ -35,7 +35,11 @@ _ROWS = (
     _Row("peak_torque", "At the output; default what the motor reaches at rest."),
     _Row("continuous_torque", "At the output; default what the motor holds for ever."),
     _Row("input_speed", 'Default "1286 rpm".'),
-    _Row("continuous_speed", 'Under the continuous torque; default --input-speed, else "300 rpm".'),
+    _Row(
+        "continuous_speed",
+        'Of the input, under the continuous torque; default --input-speed, or "300 rpm" where '
+        "neither that torque nor a speed is stated.",
+    ),
     _Row("speed_at_peak", "Of the output, up to which the peak torque is reached."),
     _Row("shock_speed", "Of the output, when it meets a rigid stop."),
     _Row("life", 'At the continuous torque or over the duty; default "1000 h".'),

@@ -34,10 +34,19 @@ from cqdd_design.cli.tables import (
 )
 
 if TYPE_CHECKING:
+    from cqdd_design.design import Design
     from cqdd_design.roads.size import Road
     from cqdd_design.sizing import SizingResult
     from cqdd_design.sizing.motors import MotorChoice
     from cqdd_design.verdict import Verdict
+
+
+_ONLY_JUDGED = (
+    "speed_at_peak", "shock_speed", "bore", "mass", "reflected_inertia", "backlash", "lost_motion",
+    "stiffness", "efficiency", "surface_temperature", "external_moment", "external_axial",
+    "external_radial",
+)  # fmt: skip
+"""Requirements of which the screen alone knows nothing."""
 
 
 class Objective(StrEnum):
@@ -158,10 +167,15 @@ def _lines(road: Road, *, verbose: bool) -> list[str]:
     design, sizing = road.design, road.sizing
     others = sum(not key.startswith("requirements.") for key in design.assumed)
     assumed = [key.split(".")[1] for key in design.assumed if key.startswith("requirements.")]
-    assumed = [key for key in assumed if key not in road.chosen]
+    own = {"motor"} if design.motor.data else set()
+    assumed = [key for key in assumed if key not in {*road.chosen, *own}]
     asked = design.to_mapping()["requirements"]
     motor = "by what motor and gearbox can do"
-    defaults = [[f"  {key}", str(asked[key]), motor] for key in asked if key in road.derived]
+    derived = road.derived
+    if design.requirements.load_cases:
+        # The duty says what lasts, and nothing is judged by this.
+        derived = derived - {"continuous_torque"}
+    defaults = [[f"  {key}", str(asked[key]), motor] for key in asked if key in derived]
     defaults += [[f"  {key}", str(asked[key]), ""] for key in assumed]
     rejected = [[f"  {reason}", f"{count:,}"] for reason, count in sizing.rejected.items() if count]
     return [
@@ -205,7 +219,16 @@ def _screened(road: Road) -> list[str]:
             f"{road.design.name}: no verdict, but the screen by closed forms; {goal.binding} "
             f"binds, {number(goal.torque_reserve)} times the torque is its limit. See `check`."
         ),
+        *_not_screened(road.design),
     ]
+
+
+def _not_screened(design: Design) -> list[str]:
+    """What was asked for that only the verdict judges."""
+    named = [key for key in _ONLY_JUDGED if getattr(design.requirements, key)]
+    if not named:
+        return []
+    return folded(f"not judged by the screen: {', '.join(named)}; `check` judges them.")
 
 
 def _judged(road: Road, judged: Verdict, *, verbose: bool) -> list[str]:

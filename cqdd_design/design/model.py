@@ -15,7 +15,7 @@ from pydantic.fields import FieldInfo
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design.actuator import Drive, Edm, Environment, Housing, Tolerances
 from cqdd_design.design.fields import FrozenModel
-from cqdd_design.design.motor import MotorFile, MotorTable
+from cqdd_design.design.motor import SUPPLY, MotorFile, MotorTable
 from cqdd_design.design.motor_row import IN_DESIGN, motor_row, own_table
 from cqdd_design.design.printing import Printing
 from cqdd_design.design.problems import describe_problems
@@ -37,10 +37,20 @@ if TYPE_CHECKING:
     from cqdd_design.design.duty_log import DutyColumns, DutyLog
 
 SCHEMA_VERSION: Literal[1] = 1
-#: Keys of the motor that follow from requirements which are stated.
-_SUPPLY = {"voltage": "voltage", "current_limit": "current"}
 #: Bytes of a name; file names add theirs, and 255 is the most that file systems take.
 _LONGEST_NAME = 200
+
+
+def too_cold_a_surface(asked: Requirements, ambient: float) -> str:
+    """What is wrong with a surface that is to be as cold as the air (deg C); empty of any other."""
+    wanted = asked.surface_temperature
+    if wanted is None or wanted > ambient:
+        return ""
+    return (
+        f"requirements.surface_temperature {format_quantity(wanted, TEMPERATURE)} is not above "
+        f"environment.ambient {format_quantity(ambient, TEMPERATURE)}: nothing that loses heat is "
+        "as cold as the air; raise it or lower ambient"
+    )
 
 
 class Design(FrozenModel):
@@ -95,7 +105,7 @@ class Design(FrozenModel):
             filled["requirements"] = {"ratio": reducer["ratio"], **requirements}
         motor = filled.get("motor", {})
         if isinstance(motor, dict) and isinstance(requirements, dict):
-            stated = {key: requirements[own] for key, own in _SUPPLY.items() if own in requirements}
+            stated = {key: requirements[own] for key, own in SUPPLY.items() if own in requirements}
             if stated:
                 filled["motor"] = {**stated, **motor}
         return filled
@@ -127,7 +137,7 @@ class Design(FrozenModel):
     def _refuse_contradictions(self) -> None:
         """Refuse requirements that other tables contradict."""
         asked, ambient = self.requirements, self.environment.ambient
-        for key, own in _SUPPLY.items():
+        for key, own in SUPPLY.items():
             dimension = VOLTAGE if own == "voltage" else CURRENT
             there, most = getattr(self.motor, key), getattr(asked, own)
             if most is not None and there > most * (1.0 + 1e-12):
@@ -135,13 +145,8 @@ class Design(FrozenModel):
                     f"motor.{key} {format_quantity(there, dimension)} is above requirements.{own} "
                     f"{format_quantity(most, dimension)}; make them equal or leave motor.{key} out"
                 )
-        if asked.surface_temperature is not None and asked.surface_temperature <= ambient:
-            raise ValueError(
-                "requirements.surface_temperature "
-                f"{format_quantity(asked.surface_temperature, TEMPERATURE)} is not above "
-                f"environment.ambient {format_quantity(ambient, TEMPERATURE)}: nothing that loses "
-                "heat is as cold as the air; raise it or lower ambient"
-            )
+        if cold := too_cold_a_surface(asked, ambient):
+            raise ValueError(cold)
 
     @classmethod
     def from_mapping(
@@ -326,7 +331,7 @@ def supply_taken_over(design: Design) -> dict[str, str]:
     """Keys of the motor's supply that follow from a requirement where left out, and from which."""
     return {
         f"motor.{key}": f"requirements.{own}"
-        for key, own in _SUPPLY.items()
+        for key, own in SUPPLY.items()
         if getattr(design.requirements, own) is not None
     }
 

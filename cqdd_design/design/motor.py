@@ -71,6 +71,10 @@ Convention = Literal[
 ]
 
 
+SUPPLY = {"voltage": "voltage", "current_limit": "current"}
+"""Keys of a driver under ``motor``, and the requirements that say the same."""
+
+
 class MotorData(FrozenModel):
     """What may be said of a motor; every key may be left out.
 
@@ -399,9 +403,16 @@ def motor_of_requirements(table: object, source: Path) -> tuple[str, MotorFile |
     """
     if not isinstance(table, Mapping):
         return "", None
-    keys = {key: value for key, value in table.items() if key not in ("voltage", "current_limit")}
+    keys = {key: value for key, value in table.items() if key not in SUPPLY}
     found = MotorFile.from_mapping(keys, source=f"{source}: motor", place=source.name)
     return found.base, found if found.data else None
+
+
+def supply_of_requirements(table: object) -> dict[str, Any]:
+    """What the driver's keys under ``motor`` ask for, as keys of requirements."""
+    if not isinstance(table, Mapping):
+        return {}
+    return {own: table[key] for key, own in SUPPLY.items() if key in table}
 
 
 def _name_in_catalogue(name: str) -> str:

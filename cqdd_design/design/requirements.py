@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from cqdd_design.design.duty_log import DutyLog
 
 LEAST_RATIO, MOST_RATIO = 4, 119
-LEAST_TORQUE, MOST_TORQUE = 1e-3, 1e5
+LEAST_TORQUE, LEAST_LASTING, MOST_TORQUE = 1e-3, 1e-4, 1e5
 """Peak torques that are worked with, N m."""
 
 Ratio = Annotated[
@@ -106,7 +106,10 @@ class Requirements(FrozenModel):
         ),
     ]
     continuous_torque: Annotated[
-        float, QuantityIn(TORQUE, "0.0001 N*m", "100000 N*m", "a robot joint, not a mill")
+        float,
+        QuantityIn(
+            TORQUE, f"{LEAST_LASTING:g} N*m", f"{MOST_TORQUE:.0f} N*m", "a robot joint, not a mill"
+        ),
     ]
     input_speed: Annotated[
         float, QuantityIn(SPEED, "1 rpm", "30000 rpm", "greased eccentric bearings")

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from pydantic import ValidationError
 
 from cqdd_design.design.model import SCHEMA_VERSION, Design
-from cqdd_design.design.motor import MotorFile, motor_of_requirements
+from cqdd_design.design.motor import MotorFile, motor_of_requirements, supply_of_requirements
 from cqdd_design.design.problems import describe_problems
 from cqdd_design.design.requirements import Requirements
 from cqdd_design.errors import DesignError, UsageError, nearest_names
@@ -92,6 +92,7 @@ def load_requirements(path: Path, changes: Mapping[str, Any] | None = None) -> R
     # A design's motor is asked for too, unless its requirements name another.
     base, _ = motor_of_requirements(data.get("motor"), path)
     asked = {"motor": base} if base else {}
+    asked |= supply_of_requirements(data.get("motor"))
     return requirements_from_mapping({**asked, **table, **given}, source=str(path))
 
 

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design, Requirements
+from cqdd_design.design.actuator import Environment
+from cqdd_design.design.model import too_cold_a_surface
 from cqdd_design.design.motor import MotorFile
 from cqdd_design.design.motor_row import row_over
 from cqdd_design.environment import output_folder
@@ -222,6 +224,9 @@ def size_design(
             f"any motor of the catalogue is asked for, and {motor.place} describes one; keep one "
             "of them."
         )
+    air = Environment().ambient if ambient is None else ambient
+    if cold := too_cold_a_surface(requirements, air):
+        raise UsageError(f"{cold}.")
     named, row = "motor" in requirements.model_fields_set, None
     if motor is not None:
         # Whoever gives a motor's data asks for that motor.

@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from cqdd_design.design import Requirements
+from cqdd_design.design.requirements import LEAST_LASTING, LEAST_TORQUE
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.sizing.able import CONTINUOUS, PEAK
@@ -102,10 +103,11 @@ def weaker(requirements: Requirements, peak: float, lasting: float) -> Requireme
     """
     most = requirements.peak_torque
     if PEAK in requirements.derived and peak < 1.0:
-        most = rounded_down(peak * most, _DIGITS)
+        most = max(rounded_down(peak * most, _DIGITS), LEAST_TORQUE)
     least = requirements.continuous_torque
     if CONTINUOUS in requirements.derived:
         least = min(rounded_down(lasting * least, _DIGITS) if lasting < 1.0 else least, most)
+        least = max(least, LEAST_LASTING)
     return requirements.model_copy(update={PEAK: most, CONTINUOUS: least})
 
 

@@ -23,15 +23,18 @@ _MORE, _TWICE, _LESS_ROOM = 1.1, 2.0, 0.95
 def costs(hunt: Hunt, found: Found) -> tuple[Cost, ...]:
     """What 10 % more of either torque, twice the life and a ring 5 % smaller cost."""
     # Whichever cam bearing it takes: what part errors ask for is known of this one.
-    near = replace(hunt, usual=dict(hunt.extra_for(found.cam)), extra_of={})
+    near = replace(hunt, usual=dict(hunt.extra_for(found.cam)), extra_of={}, sturdier=1.0)
     asked, space = hunt.requirements, found.space._replace(cam="")
     wide = space.anywhere._replace(free=True)
     peak, lasting = asked.peak_torque, asked.continuous_torque
-    changes = (
+    changes = [
         ("peak_torque", "10 % more peak torque", _MORE * peak),
         ("continuous_torque", "10 % more continuous torque", min(_MORE * lasting, peak)),
         ("life", "twice the life", _TWICE * asked.life),
-    )
+    ]
+    if asked.load_cases:
+        # The duty says what lasts.
+        changes = [one for one in changes if one[0] != "continuous_torque"]
     more = [
         Cost(key, words, value, _more_mass(near, found, wide, {key: value}))
         for key, words, value in changes

@@ -40,6 +40,10 @@ _USUAL = {
 }
 """Reserve for part errors, by check, before toleranced gearboxes have been looked at: a little less
 than searches at ratios from 5 to 30 came to ask for."""
+_AT_PEAK = (CAM, "CONTACT-RING-PEAK")
+"""Lines of which a stronger gearbox keeps more reserve."""
+_STURDIEST = 3.0
+"""Reserve at the peak beyond which no more is tried."""
 _MOST_RISEN = 2
 """How often a torque is raised that was lowered before: it could go up and down for ever."""
 _SOLVED = 15
@@ -126,6 +130,8 @@ class Hunt:
         Whether output pins that are tried are on needles.
     tried : set of Goal
         Goals that were taken to meet something that is asked for.
+    sturdier : float
+        Reserve at the peak that something takes which is asked for: stiffness, or a stop.
     yielding : tuple of array, optional
         Outputs of gearboxes whose discs and ring yield over those of rigid ones, at the continuous
         and at the peak torque, of the last design that was looked at with them.
@@ -175,6 +181,7 @@ class Hunt:
     most_pin_circle: float = math.inf
     pins: tuple[bool, ...] = (False,)
     tried: set[Goal] = field(default_factory=set)
+    sturdier: float = 1.0
     yielding: tuple[NDArray[np.float64], ...] | None = None
     yielding_at: tuple[float, ...] = ()
     rigid: tuple[Machine, tuple[NDArray[np.float64], ...]] | None = None
@@ -217,6 +224,11 @@ class Hunt:
         return not self.lowered or other
 
     @property
+    def may_be_sturdier(self) -> bool:
+        """Whether still more reserve at the peak is tried for what is asked for."""
+        return self.sturdier < _STURDIEST
+
+    @property
     def has_extra(self) -> bool:
         """Whether part errors ask for any reserve."""
         return bool(self.extra_of)
@@ -227,7 +239,15 @@ class Hunt:
         With one that has not been looked at, somewhat less than what the known one asks for whose
         rating is closest, and where none is named, than what every one does; where the hunt is
         trusting, still less. Where none is known, what is usual; where many are, as much as any.
+        Where what is asked for takes a stronger gearbox than loads do, so much more at the peak.
         """
+        own = self._for_errors(cam)
+        if self.sturdier == 1.0:
+            return own
+        return {**own, **{one: self.sturdier * own.get(one, 1.0) for one in _AT_PEAK}}
+
+    def _for_errors(self, cam: str) -> Mapping[str, float]:
+        """The part of `extra_for` that part errors ask for."""
         own = self.extra_of.get(cam)
         if own is None and not self.extra_of:
             own = {} if self.trusting else dict(self.usual)

@@ -323,12 +323,14 @@ def read_spread(
             # What they need is known now, where only what is usual was.
             _ask_extra(hunt, machine, _over(used(allowed, drawn), share))
         return None
-    # No clearance makes a gearbox tighter or stiffer.
-    loose = any(fails.get(name, 0) > (1.0 - share) * count for name in ("backlash", "stiffness"))
+    # No clearance makes a gearbox tighter or stiffer, but a stronger one is stiffer.
+    most = (1.0 - share) * count
+    slack, soft = (fails.get(name, 0) > most for name in ("backlash", "stiffness"))
+    loose = slack or soft
     jams = max(one.lost for one in drawn)
     # Half of what may fail, all of it where a backlash is asked for: clearance would cost that.
     may = (0.5 if machine.design.requirements.backlash is None else 1.0) * (1.0 - share) * count
-    if not loose and fails["bind"] + jams > may:
+    if not (slack or (soft and not hunt.may_be_sturdier)) and fails["bind"] + jams > may:
         return _LEAST_STEP
     # What may fail is shared among the lines that do.
     quantile = 1.0 - (1.0 - share) / max(sum(1 for number in fails.values() if number), 1)
@@ -342,8 +344,9 @@ def read_spread(
     if short:
         _ask_extra(hunt, machine, over)
         hunt.borne = _borne(over)
-    slack = fails.get("backlash", 0) > fails["bind"] + jams
-    wider = slack and _asks_for_a_wider_ring(hunt, machine, drawn, quantile)
+    wider = fails.get("backlash", 0) > fails["bind"] + jams and _asks_for_a_wider_ring(
+        hunt, machine, drawn, quantile
+    )
     if short or wider:
         return 0.0
     return None if loose else _LEAST_STEP

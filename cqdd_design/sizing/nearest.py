@@ -16,6 +16,7 @@ from cqdd_design.catalog.motors import Motor, find_motor
 from cqdd_design.design import Requirements
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.gearbox.checks.guide import CHECK_GUIDE
+from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.geometry.scale import largest_ring
 from cqdd_design.sizing.able import CONTINUOUS, PEAK, TooHotError
 from cqdd_design.sizing.bearable import LEAST, both_bearable, weaker
@@ -38,8 +39,16 @@ step from one to the next."""
 _NEARLY = 0.9
 """Share of both torques below which nothing is looked for that bears all: it is told roughly."""
 _ROUNDING = 1e-6
-_NO_SPACE = ("MOTOR-", "THERMAL-RISE", "EFFICIENCY", "REFLECTED-INERTIA", "MASS")
+_NO_SPACE = (
+    "MOTOR-", "THERMAL-RISE", "EFFICIENCY", "REFLECTED-INERTIA", "MASS", "BORE", "PEAK-AT-SPEED",
+)  # fmt: skip
 """Beginnings of lines that no more space helps."""
+_DIGITS = 2
+"""Of a peak torque that is told."""
+_NO_LOADS = {"BACKLASH", "LOST-MOTION", "STIFFNESS", "SHOCK-STOP", "SURFACE-TEMPERATURE"}
+"""Lines of which a search by loads alone does not know how much space they take."""
+_ALONE = {PEAK: {"MOTOR-PEAK"}, CONTINUOUS: {"MOTOR-CONTINUOUS", "THERMAL-RISE"}}
+"""Lines that less of one torque alone helps."""
 
 
 @dataclass(frozen=True)
@@ -65,8 +74,11 @@ class _Way:
 
     @property
     def doubtful(self) -> bool:
-        """Whether it failed for what space hardly helps, among others."""
-        return self.hopeless or bool(self.beyond_space)
+        """Whether it failed for what space may not help, among others."""
+        other = isinstance(self.refusal, SizingInfeasibleError) and bool(
+            _NO_LOADS & set(self.refusal.binding)
+        )
+        return self.hopeless or bool(self.beyond_space) or other
 
 
 class _Need(NamedTuple):
@@ -106,7 +118,7 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
     less = _Way(hunt, None, refusal)
     if PEAK not in asked.derived and not asked.load_cases:
         hunt.say("looking for the torques that fit")
-        less = _tried(hunt, asked.deriving(PEAK, CONTINUOUS))
+        less = _less_torque(hunt, refusal)
     ways, needed, still = [], {}, {}
     most = lasting = None
     if less.found is not None:
@@ -142,11 +154,28 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
     )
 
 
+def _less_torque(hunt: Hunt, refusal: SizingInfeasibleError) -> _Way:
+    """A search for torques that fit: less of that alone which is short, where that is enough."""
+    asked, most = hunt.requirements, refusal.most_torque
+    if most is not None and set(refusal.binding) == {"MOTOR-PEAK"}:
+        peak = rounded_down(most, _DIGITS)
+        if asked.continuous_torque <= peak < asked.peak_torque:
+            way = _tried(hunt, asked.model_copy(update={PEAK: peak}))
+            if way.found is not None:
+                return way
+    for torque, lines in _ALONE.items():
+        if set(refusal.binding) <= lines:
+            way = _tried(hunt, asked.deriving(torque))
+            if way.found is not None:
+                return way
+    return _tried(hunt, asked.deriving(PEAK, CONTINUOUS))
+
+
 def _why(refusal: InfeasibleError) -> str:
-    """In words, without what may be done about it."""
+    """In words."""
     if isinstance(refusal, SizingInfeasibleError):
         return f"the nearest is short of {_titles(refusal.binding)}"
-    return refusal.message.partition(";")[0].rstrip(".")
+    return refusal.message.rstrip(".")
 
 
 def _titles(lines: Iterable[str]) -> str:

@@ -67,6 +67,10 @@ _GOALS: Mapping[str, Goal] = {
     "EFFICIENCY": "efficiency",
 }
 """Lines that are asked for, and the goal of a search that meets them if any does."""
+_BY_STRENGTH = {"STIFFNESS", "SHOCK-STOP"}
+"""Lines that are asked for and that a stronger gearbox meets."""
+_STURDIER = 1.3
+"""Of its reserve at the peak, from one search to the next."""
 
 
 @dataclass(frozen=True)
@@ -406,6 +410,14 @@ def _turned(hunt: Hunt, found: Found, judged: Verdict) -> bool:
         hunt.say("searching with the output pins on needles")
         return True
     failing = {line.id for line in judged.lines if line.status in {"fail", "unknown"}}
+    if failing & _BY_STRENGTH and failing <= {*_BY_STRENGTH, "YIELD", *SHAFT}:
+        if not hunt.may_be_sturdier:
+            return False
+        if failing & SHAFT:
+            stronger_shaft(hunt, found, judged.lines)
+        hunt.sturdier *= _STURDIER
+        hunt.say(f"searching for a gearbox with {hunt.sturdier:.3g} times the reserve at the peak")
+        return True
     goals = [goal for name, goal in _GOALS.items() if name in failing and goal not in hunt.tried]
     if not goals or not failing <= {*_GOALS, "YIELD", *SHAFT} or goals[0] == hunt.goal:
         return False

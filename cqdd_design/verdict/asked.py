@@ -72,7 +72,7 @@ def _shock(evidence: Evidence) -> Iterator[Check]:
         "SHOCK-STOP",
         torque,
         limit,
-        f"{torque:.4g} N*m from {speed:.4g} rad/s; {carried.limits[0].words} give way first",
+        f"{torque:.4g} N*m from {speed:.4g} rad/s; first to give way: {carried.limits[0].words}",
         f"stay below about {slower:g} rad/s where the output may be stopped, or take a gearbox "
         "that carries more",
     )
@@ -180,8 +180,10 @@ def _stiffness(evidence: Evidence) -> Iterator[Check]:
         "STIFFNESS",
         float(found["p5"]),
         limit,
-        f"mean {found['mean']:.4g} N*m/arcmin at {drawn.ensemble.torque:g} N*m",
-        "take thicker or more output_pins, thicker discs, or a wider pin circle",
+        f"{found['p5']:.4g} N*m/arcmin, {found['mean']:.4g} in the mean, at "
+        f"{drawn.ensemble.torque:g} N*m",
+        "take more or thicker output_pins where they have room, or size it for more peak_torque: a "
+        "stronger gearbox is stiffer",
     )
 
 

@@ -106,8 +106,9 @@ def _peak(demand: Demand, motor: Motor, asked: Requirements) -> Check:
         most,
         asked.peak_torque,
         f"{told}binding: {binding}",
-        f"{_lower('peak_torque', most)}raise motor.current_limit where the "
-        "driver binds, or take a stronger motor or more ratio",
+        f"{_lower('peak_torque', most)}raise motor.current_limit, and "
+        "requirements.current where it is stated, if the driver binds, or take a stronger motor "
+        "or more ratio",
         model=MODEL,
     )
 
@@ -120,6 +121,9 @@ def _continuous(
         limit = asked.continuous_torque
         return build_check("MOTOR-CONTINUOUS", None, limit, uncooled, cure, model=MODEL)
     most, still = demand.found.most, float(held_torque(actuator, 0.0)[0])
+    slower = "lower requirements.continuous_speed"
+    if asked.continuous_speed is None:
+        slower = "state as continuous_speed at which speed it is held, if that is less"
     return build_check(
         "MOTOR-CONTINUOUS",
         most,
@@ -127,8 +131,8 @@ def _continuous(
         f"{most:.4g} N*m at {asked.held_speed * _RPM:.0f} rpm of the motor; {still:.4g} N*m "
         "standing still",
         # What friction alone overheats holds nothing while it turns.
-        f"{_lower('continuous_torque', most)}lower friction or requirements.input_speed, or cool "
-        "it (drive.thermal_resistance states how well)",
+        f"{_lower('continuous_torque', most)}{slower}, lower friction, or cool it "
+        "(drive.thermal_resistance states how well)",
         model=MODEL,
     )
 

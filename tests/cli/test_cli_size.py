@@ -394,6 +394,25 @@ def test_requirement_out_of_range(cqdd, tmp_path, option, value, said):
     assert list(tmp_path.iterdir()) == []
 
 
+def test_a_surface_as_cold_as_the_air_is_refused_before_any_search(cqdd, tmp_path):
+    asked = "size", "--ratio", "10", "--surface-temperature"
+    for more, air in (("25 degC",), "25"), (("38 degC", "--ambient", "40 degC"), "40"):
+        done = cqdd(*asked, *more)
+        assert done.code == 2
+        assert f"not above environment.ambient {air} degC" in done.err
+    assert not list(tmp_path.rglob("*.toml"))
+
+
+def test_the_screen_says_what_it_does_not_judge(cqdd):
+    done = cqdd(
+        "size", "--ratio", "10", "--peak-torque", "20 N*m", "--quick", "--backlash", "1 arcmin",
+        "--mass", "0.5 kg",
+    )  # fmt: skip
+    assert "not judged by the screen: mass, backlash; `check` judges them." in done.out
+    again = cqdd("size", "--ratio", "10", "--peak-torque", "20 N*m", "--quick", "--force")
+    assert "not judged" not in again.out
+
+
 def test_when_nothing_fits(cqdd, tmp_path):
     done = cqdd("size", "--quick", "--ratio", "10", "--outer-diameter", "40 mm", "--json")
     assert done.code == 3

@@ -297,6 +297,18 @@ def test_requirements_take_the_motor_of_their_file(tmp_path: Path) -> None:
     assert load_requirements(path).motor == "CubeMars RI60 KV120"
 
 
+def test_requirements_take_the_driver_of_their_file(tmp_path: Path) -> None:
+    """Else a design for more than it gives would be called good."""
+    path = tmp_path / "asked.toml"
+    text = "[requirements]\nratio = 10\n{}[motor]\nvoltage = '24 V'\ncurrent_limit = '10 A'\n"
+    path.write_text(text.format(""))
+    asked = load_requirements(path)
+    assert (asked.voltage, asked.current) == (24.0, 10.0)
+    path.write_text(text.format("current = '8 A'\n"))
+    assert load_requirements(path).current == 8.0
+    assert load_requirements(path, {"voltage": "36 V"}).voltage == 36.0
+
+
 def test_the_schema_knows_the_keys_of_a_motor() -> None:
     table = design_schema()["$defs"]["MotorTable"]
     assert set(MotorTable.model_fields) == set(table["properties"])

@@ -258,6 +258,34 @@ def test_of_few_gearboxes_the_overloaded_one_asks_for_reserve(
     assert extra == (pytest.approx(1.02 * 1.1) if not binding else 1.0)
 
 
+@pytest.mark.parametrize(
+    ("fails", "sturdier", "step"),
+    [
+        ({"bind": 6, "stiffness": 10}, 1.0, 1e-6),
+        ({"bind": 6, "stiffness": 10}, 4.0, None),
+        ({"bind": 0, "stiffness": 10}, 1.0, None),
+        ({"bind": 6, "stiffness": 10, "backlash": 10}, 1.0, None),
+        ({"bind": 6, "stiffness": 1}, 4.0, 1e-6),
+    ],
+)
+def test_soft_gearboxes_get_clearance_while_stronger_ones_may_be_stiffer(
+    monkeypatch: pytest.MonkeyPatch, fails: dict[str, int], sturdier: float, step: float | None
+) -> None:
+    looks, hunt = "cqdd_design.sizing.looks.", hunt_for(asked(10, 30.0, 4.0, 1000.0))
+    hunt.sturdier = sturdier
+    monkeypatch.setattr(looks + "good_gearboxes", lambda *_: (np.arange(16), fails))
+    monkeypatch.setattr(looks + "used", lambda *_: {"BEARING-STATIC": np.full(32, 0.9)})
+    monkeypatch.setattr(looks + "Allowed", SimpleNamespace(of=lambda *_: ()))
+    monkeypatch.setattr(looks + "_asks_for_a_wider_ring", lambda *_: False)
+    reducer = SimpleNamespace(cam_bearing=SimpleNamespace(designation="6803"))
+    requirements = SimpleNamespace(yield_share=0.95, backlash=None)
+    machine: Any = SimpleNamespace(
+        design=SimpleNamespace(requirements=requirements, reducer=reducer)
+    )
+    ensemble: Any = SimpleNamespace(values=np.ones((32, 1)), lost=0)
+    assert read_spread(hunt, machine, Drawn(ensemble, ensemble), ()) == step
+
+
 def test_torques_fall_to_what_the_best_of_the_shafts_bears(monkeypatch: pytest.MonkeyPatch) -> None:
     hunt = hunt_for(asked(10, 40.0, 4.0, 1000.0).deriving("peak_torque", "continuous_torque"))
 

@@ -109,7 +109,10 @@ def test_a_length_that_the_verdict_refuses_is_not_told(monkeypatch):
 def test_where_less_torque_does_not_help_neither_does_space(monkeypatch):
     hot = TooHotError("the motor holds nothing; state continuous_speed.")
     error, tried = said(monkeypatch, lambda _: True, lambda *_: hot)
-    assert error.message == ("it does not fit. Less torque does not help: the motor holds nothing.")
+    assert error.message == (
+        "it does not fit. Less torque does not help: the motor holds nothing; state "
+        "continuous_speed."
+    )
     assert len(tried) == 2
     error, tried = said(monkeypatch, lambda _: True, lambda *_: refused("MOTOR-PEAK", "EFFICIENCY"))
     assert error.message == (
@@ -157,6 +160,43 @@ def test_where_space_may_not_help_the_most_of_it_is_tried_first(monkeypatch):
     assert error.length_needed is None
     assert len(tried) == 3
     assert "With length 13.5 mm it is still short of steady temperature" in error.message
+
+
+@pytest.mark.parametrize(
+    ("binding", "freed"),
+    [
+        ("MOTOR-PEAK", ("peak_torque",)),
+        ("MOTOR-CONTINUOUS", ("continuous_torque",)),
+        ("BEARING-STATIC", ("continuous_torque", "peak_torque")),
+    ],
+)
+def test_only_the_torque_that_is_short_is_lowered(monkeypatch, binding, freed):
+    torques = found(peak_torque=15.0, continuous_torque=6.0)
+    _, tried = said(monkeypatch, lambda _: False, lambda *_: torques, first=(binding,))
+    assert tried[1] == (8.0, freed)
+    # Where that alone does not help, both are.
+    alone = {("peak_torque",), ("continuous_torque",)}
+    _, tried = said(
+        monkeypatch,
+        lambda _: False,
+        lambda _, derived: refused("YIELD") if tuple(derived) in alone else torques,
+        first=(binding,),
+    )
+    assert tried[1 if len(freed) == 2 else 2] == (8.0, ("continuous_torque", "peak_torque"))
+
+
+def test_what_the_motor_reaches_is_tried_as_it_is(monkeypatch):
+    peaks = []
+
+    def tried(hunt, asked):
+        peaks.append((asked.peak_torque, asked.continuous_torque, asked.derived))
+        return nearest._Way(hunt, found(), None)
+
+    monkeypatch.setattr(nearest, "_tried", tried)
+    hunt = new_hunt(requirements_from_mapping(ASKED), lambda _: None, None, None, "mass")
+    short = SizingInfeasibleError("no.", binding=("MOTOR-PEAK",), most_torque=19.47)
+    nearest._less_torque(hunt, short)
+    assert peaks == [(19.0, 6.0, frozenset())]
 
 
 def test_torques_that_nobody_stated_are_not_looked_for(monkeypatch):

@@ -50,6 +50,7 @@ from cqdd_design.sizing.spaces import FITS, MATERIALS, Found, Space, spaces
 from cqdd_design.sizing.stage_tables import stage_tables
 from cqdd_design.sizing.verified import (
     _next_step,
+    _turned,
     searched,
     size_to_verdict,
 )
@@ -218,6 +219,33 @@ def test_a_motor_that_no_gearbox_makes_strong_enough_ends_the_search(
     with pytest.raises(SizingInfeasibleError) as caught:
         searched(hunt, machine.design.requirements)
     assert caught.value.binding == (far[0].id,)
+
+
+def test_what_a_stronger_gearbox_meets_asks_for_more_reserve_at_the_peak() -> None:
+    """Stiffness and a stop; not where anything else is short that it does not help."""
+    hunt = hunt_of_what_is_assumed()
+    hunt.ask_extra("6803", {"BEARING-STATIC": 1.4, "BEARING-LIFE": 1.2})
+
+    def judged(*failing: str) -> Any:
+        return SimpleNamespace(
+            lines=[
+                SimpleNamespace(id=one, status="fail", known=True, margin=0.9) for one in failing
+            ]
+        )
+
+    found: Any = SimpleNamespace(cam="6803")
+    assert not _turned(hunt, found, judged("STIFFNESS", "MOTOR-SPEED"))
+    assert hunt.extra_for("6803") == {"BEARING-STATIC": 1.4, "BEARING-LIFE": 1.2}
+    turns = 0
+    while _turned(hunt, found, judged("SHOCK-STOP", "YIELD")):
+        turns += 1
+    assert 3.0 < hunt.sturdier < 4.0
+    assert turns > 3
+    assert hunt.extra_for("6803") == {
+        "BEARING-STATIC": pytest.approx(1.4 * hunt.sturdier),
+        "CONTACT-RING-PEAK": pytest.approx(hunt.sturdier),
+        "BEARING-LIFE": 1.2,
+    }
 
 
 def test_a_refusal_tells_of_the_judged_design_that_came_nearest(
