@@ -96,6 +96,16 @@ def load_requirements(path: Path, changes: Mapping[str, Any] | None = None) -> R
     return requirements_from_mapping({**asked, **table, **given}, source=str(path))
 
 
+def tables_not_asked(path: Path) -> tuple[str, ...]:
+    """Tables of a requirements or design file that say more than what is asked for, by name.
+
+    A design's gearbox is sized anew; where it works and how it is made is not asked for.
+    """
+    asked = {"requirements", "motor", "reducer"}
+    data = _migrated(_read(path), path)
+    return tuple(key for key, value in data.items() if isinstance(value, dict) and key not in asked)
+
+
 def load_required_motor(path: Path) -> MotorFile | None:
     """What a requirements or design file says of its motor, other than its name; None for nothing.
 

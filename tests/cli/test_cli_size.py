@@ -403,6 +403,22 @@ def test_a_surface_as_cold_as_the_air_is_refused_before_any_search(cqdd, tmp_pat
     assert not list(tmp_path.rglob("*.toml"))
 
 
+def test_what_of_a_file_is_not_asked_for_is_told(cqdd, tmp_path):
+    """A design for cooler air than the file's would look as if it were for that."""
+    path = tmp_path / "asked.toml"
+    text = "[requirements]\nratio = 10\npeak_torque = '20 N*m'\n[motor]\nvoltage = '48 V'\n"
+    path.write_text(text)
+    done = cqdd("size", "--quick", "--requirements", path)
+    assert (done.code, "are read, but not" in done.err) == (0, False)
+    path.write_text(
+        text + "[environment]\nambient = '40 degC'\n[drive]\nthermal_resistance = '1 K/W'\n"
+    )
+    done = cqdd("size", "--quick", "--requirements", path, "--force")
+    assert done.code == 0
+    told = " ".join(done.err.split())
+    assert "are read, but not [environment], [drive]" in told
+
+
 def test_the_screen_says_what_it_does_not_judge(cqdd):
     done = cqdd(
         "size", "--ratio", "10", "--peak-torque", "20 N*m", "--quick", "--backlash", "1 arcmin",
