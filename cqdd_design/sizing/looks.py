@@ -29,6 +29,7 @@ from cqdd_design.sizing.finish import torque_reserve
 from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.shafts import stronger_shaft
 from cqdd_design.sizing.spaces import FITS, Found, spaces
+from cqdd_design.solids.motor_rules import undrawn_sizes
 from cqdd_design.verdict.drawn import Allowed, Drawn, drawn_gearboxes, good_gearboxes, used
 from cqdd_design.verdict.joint_lines import bell_line
 from cqdd_design.verdict.motor import motor_lines
@@ -96,8 +97,12 @@ def motor_far_short(hunt: Hunt, machine: Machine) -> tuple[Check, ...]:
     if free >= {PEAK, CONTINUOUS}:
         return ()
     rigid = replace(machine, stiff=True)
+    # How a motor is cooled that is not drawn nobody knows, unless it is stated.
+    cooled = machine.design.drive.thermal_resistance or not undrawn_sizes(machine.motor)
     try:
-        lines = motor_lines(rigid, actuator_parameters(rigid), "")
+        lines = motor_lines(
+            rigid, actuator_parameters(rigid), "", uncooled="" if cooled else "not drawn"
+        )
     except DesignError:
         return ()
     far = []
