@@ -1,4 +1,4 @@
-"""Magnetic encoders on the end of a shaft: sensors, and the diametric magnets that they read."""
+"""Magnetic encoders at the end of a shaft: sensors, and the diametric magnets that they read."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from cqdd_design.catalog.reader import column, read_records
 
 @dataclass(frozen=True)
 class EncoderSensor:
-    """A sensor that reads the angle of a magnet on the axis.
+    """A sensor that reads the angle of a magnet on the axis, or of a ring that it stands beside.
 
     Attributes
     ----------
@@ -20,10 +20,12 @@ class EncoderSensor:
         Of an absolute angle over one turn.
     most_speed_rpm : float or None
         Up to which it reads; None where the source gives none.
+    place : str
+        Where it stands: ``axis``, under the magnet, or ``side``, beside a ring round the shaft.
     magnet_diameter, magnet_height : float
         Of the diametric magnet that it is made for, m.
-    least_gap, most_gap : float
-        From the magnet to the face of its package, m.
+    least_gap, most_gap : float or None
+        From the magnet to the face of its package, or to the edge of its board, m.
     source : str
         Where the row comes from.
     """
@@ -31,9 +33,10 @@ class EncoderSensor:
     name: str = column("name")
     bits: int = column("bits")
     most_speed_rpm: float | None = column("most_rpm")
+    place: str = column("place")
     magnet_diameter: float = column("magnet_mm", 1e-3)
     magnet_height: float = column("magnet_height_mm", 1e-3)
-    least_gap: float = column("least_gap_mm", 1e-3)
+    least_gap: float | None = column("least_gap_mm", 1e-3)
     most_gap: float = column("most_gap_mm", 1e-3)
     source: str = column("source")
 
@@ -61,15 +64,23 @@ def encoder_magnets() -> tuple[EncoderMagnet, ...]:
     return tuple(read_records("encoder_magnets.csv", EncoderMagnet))
 
 
-def sensors_with(bits: int) -> tuple[EncoderSensor, ...]:
+def sensors_with(bits: int, *, beside: bool = False) -> tuple[EncoderSensor, ...]:
     """Sensors of at least so many bits, those of fewest first.
+
+    Parameters
+    ----------
+    beside : bool
+        Whether they stand beside a ring magnet round the shaft instead of under the shaft's end.
 
     Examples
     --------
     >>> [one.name for one in sensors_with(14)][:2]
     ['ams AS5047P', 'ams AS5048A']
+    >>> [one.name for one in sensors_with(14, beside=True)]
+    ['MPS MA732', 'MPS MA600']
     """
-    fitting = (one for one in encoder_sensors() if one.bits >= bits)
+    place = "side" if beside else "axis"
+    fitting = (one for one in encoder_sensors() if one.bits >= bits and one.place == place)
     return tuple(sorted(fitting, key=lambda one: one.bits))
 
 

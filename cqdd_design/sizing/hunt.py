@@ -305,7 +305,8 @@ class Hunt:
         bearings = tuple(
             one
             for one in frame.bearings
-            if one.bore_diameter >= self.least_bore and space.cam in {"", one.designation}
+            if one.bore_diameter >= max(self.least_bore, asked.bore or 0.0)
+            and space.cam in {"", one.designation}
         )
         if not bearings:
             raise InfeasibleError("no cam bearing that is tried goes into this space.")

@@ -20,7 +20,7 @@ from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.known import answered, key_of, least_of, near_by, note, own_of
 from cqdd_design.sizing.rings import FAR_SHORT, NOT_FAR, Rings, finer
 from cqdd_design.sizing.search import Search
-from cqdd_design.sizing.shafts import ENDS, ROTOR, THICKNESS
+from cqdd_design.sizing.shafts import ANY_TORQUE, ENDS, THICKNESS
 from cqdd_design.sizing.spaces import Found, Space, spaces
 
 _SLACK = 1.08
@@ -217,9 +217,9 @@ def _shaft_margin(found: Found) -> float:
 def _margin_of_any_torque(found: Found) -> float:
     """The least margin of what a weak design is short of whatever its torque.
 
-    Of its rotor's pull, and of ends that no bearing fits.
+    Of its rotor's pull, of the way through it, and of ends that no bearing fits.
     """
-    lines = (line for line in found.weak if line.id in ROTOR or not line.known)
+    lines = (line for line in found.weak if line.id in ANY_TORQUE or not line.known)
     return min((line.margin if line.known else 0.0 for line in lines), default=math.inf)
 
 

@@ -40,8 +40,13 @@ _NEARLY = 0.9
 """Share of both torques below which nothing is looked for that bears all: it is told roughly."""
 _ROUNDING = 1e-6
 _NO_SPACE = (
-    "MOTOR-", "THERMAL-RISE", "EFFICIENCY", "REFLECTED-INERTIA", "MASS", "BORE", "PEAK-AT-SPEED",
-)  # fmt: skip
+    "MOTOR-",
+    "THERMAL-RISE",
+    "EFFICIENCY",
+    "REFLECTED-INERTIA",
+    "MASS",
+    "PEAK-AT-SPEED",
+)
 """Beginnings of lines that no more space helps."""
 _DIGITS = 2
 """Of a peak torque that is told."""
@@ -258,6 +263,12 @@ def _least(hunt: Hunt, asked: Requirements, key: str, limit: float, *, doubtful:
             return _Need(high)
         if way.doubtful and not doubtful:
             return _Need(None, high, way.beyond_space)
+        if surely is None:
+            # Each length costs a search: not where the most does not do either.
+            most = way if high == limit else _tried(hunt, stating(limit))
+            if most.found is None:
+                return _Need(None, limit, most.beyond_space)
+            surely = limit
         # It has learnt what part errors take there.
         low, known = _up(_ON * high) - _STEP, way.hunt
         if low >= limit:

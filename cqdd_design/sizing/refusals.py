@@ -24,7 +24,7 @@ from cqdd_design.sizing.infeasible import (
     no_design,
 )
 from cqdd_design.sizing.search import Search
-from cqdd_design.sizing.shafts import ROTOR
+from cqdd_design.sizing.shafts import ANY_TORQUE, ROTOR
 from cqdd_design.sizing.spaces import FITS, Found, Space, spaces
 from cqdd_design.verdict import Verdict
 
@@ -77,8 +77,12 @@ def _no_shaft(hunt: Hunt) -> SizingInfeasibleError:
     way = "Ask for less torque or give more space"
     if PEAK in asked.derived:
         # Less of it was tried, and is not what is wrong.
-        lines = tuple(line for line in lines if line.id in ROTOR or not line.known)
-        way = "Less torque does not help: give more space, or take a motor with a smaller rotor"
+        lines = tuple(line for line in lines if line.id in ANY_TORQUE or not line.known)
+        rotor = any(line.id in ROTOR for line in lines)
+        other = ", or take a motor with a smaller rotor" if rotor else ""
+        way = f"Less torque does not help: give more space{other}"
+    if any(line.id == "BORE" for line in lines):
+        way += ", or ask for a smaller bore"
     told = "; ".join(f"{line.title.lower()}: {line.substituted}" for line in lines)
     return SizingInfeasibleError(
         f"{_asked(asked)} do not fit in {_space(asked)}: of all designs that bear them at teeth "

@@ -15,6 +15,7 @@ from cqdd_design.sizing.able import PEAK
 from cqdd_design.sizing.bearable import JUST, bearable, weaker
 from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.spaces import Found
+from cqdd_design.verdict.bore_line import bore_line
 from cqdd_design.verdict.rotor_lines import rotor_lines
 from cqdd_design.verdict.shaft_lines import shaft_lines
 
@@ -24,8 +25,10 @@ AT_PEAK = frozenset({"SHAFT-STRENGTH", ENDS})
 """Lines of the shaft that less peak torque helps: the strength in proportion, the bearings by less,
 since what the rotor puts on them stays."""
 ROTOR = frozenset({"SHAFT-ROTOR-GAP", "SHAFT-STUB"})
-"""Lines of what hangs on the shaft's stub, which no less torque helps."""
-SHAFT = AT_PEAK | ROTOR | {"SHAFT-FATIGUE", "SUPPORT-LIFE", BOND}
+"""Lines of what hangs on the shaft's stub."""
+ANY_TORQUE = ROTOR | {"BORE"}
+"""Lines that no less torque helps."""
+SHAFT = AT_PEAK | ANY_TORQUE | {"SHAFT-FATIGUE", "SUPPORT-LIFE", BOND}
 """Lines that a cam bearing with a wider bore helps."""
 THICKNESS = frozenset({"SHAFT-STRENGTH", "SHAFT-FATIGUE"})
 """Lines that a thinner shaft does worse."""
@@ -42,7 +45,9 @@ def weak_lines(machine: Machine) -> tuple[Check, ...]:
     rigid = replace(machine, stiff=True)
     short = (one for one in shaft_lines(rigid) if one.id in SHAFT and one.status in _SHORT)
     # What is not known of a rotor no shaft tells.
-    return (*short, *(one for one in rotor_lines(rigid) if one.status == "fail"))
+    hung = (one for one in rotor_lines(rigid) if one.status == "fail")
+    bore = bore_line(rigid)
+    return (*short, *hung, *((bore,) if bore is not None and bore.status == "fail" else ()))
 
 
 def stronger_shaft(hunt: Hunt, found: Found, every: Iterable[Check]) -> None:

@@ -22,8 +22,9 @@ from typing import TYPE_CHECKING
 from cqdd_design.catalog.materials import Material
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.geometry.scale import millimetre_unit
+from cqdd_design.solids.encoder_rules import lay_out_encoder
 from cqdd_design.solids.motor_layout import MotorLayout
-from cqdd_design.solids.motor_rules import hub_length, lay_out_encoder, lay_out_motor
+from cqdd_design.solids.motor_rules import hub_length, lay_out_motor
 from cqdd_design.solids.registers import spigot_depth
 from cqdd_design.solids.selection import cap_screw, thread_size
 
@@ -82,6 +83,7 @@ def lay_out_behind(
     *,
     weights: bool,
     metal: Material,
+    hollow: float | None = None,
 ) -> MotorLayout:
     """Lay out motor, bell, neck, cover and encoder; parameters as `lay_out_motor`, no misfit.
 
@@ -103,7 +105,7 @@ def lay_out_behind(
     stub = support.bearing.bore_diameter
     # What the bond asks for, and long enough to stand square.
     needed = around.web_bottom + max(hub_length(torque, stub), _LEAST_HUB * stub)
-    encoder = lay_out_encoder(0.5 * stub, around.hub_bottom - 0.5 * unit)
+    encoder = lay_out_encoder(0.5 * stub, around.hub_bottom - 0.5 * unit, hollow)
     return replace(
         around,
         **vars(encoder),

@@ -10,8 +10,8 @@ import math
 from collections.abc import Sequence
 
 from cqdd_design.geometry.contours import ArcContour, Circle, PlanarPart
+from cqdd_design.solids.encoder_shapes import dish_plate
 from cqdd_design.solids.features.kinds import Feature
-from cqdd_design.solids.features.motor import dish_bottom
 from cqdd_design.solids.features.removal import drillings
 from cqdd_design.solids.layers import (
     Annulus,
@@ -43,7 +43,7 @@ def flanged_can(
     ears = motor.joint - motor.ear_height
     thin = max((step.top for step in steps), default=floor)
     rings = [
-        Annulus(dish_bottom(motor, unit), motor.board_bottom, 0.0, dish + wall),
+        *dish_plate(motor, unit, dish + wall),
         Annulus(min(motor.board_bottom, under), under, dish, dish + wall),
         Annulus(max(under, motor.board_bottom), floor, dish, outside),
         *steps,

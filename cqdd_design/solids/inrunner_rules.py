@@ -20,8 +20,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from cqdd_design.catalog.motors import Motor
+from cqdd_design.solids.encoder_rules import lay_out_encoder
 from cqdd_design.solids.motor_layout import InrunnerLayout
-from cqdd_design.solids.motor_rules import AIR_GAP, hub_length, lay_out_encoder
+from cqdd_design.solids.motor_rules import AIR_GAP, hub_length
 from cqdd_design.solids.registers import spigot_depth
 from cqdd_design.solids.selection import cap_screw, thread_size
 
@@ -58,7 +59,12 @@ def misfit(motor: Motor, support: ChosenBearing, unit: float) -> str:
 
 
 def lay_out_inrunner(
-    motor: Motor, housing: HousingLayout, support: ChosenBearing, unit: float, torque: float
+    motor: Motor,
+    housing: HousingLayout,
+    support: ChosenBearing,
+    unit: float,
+    torque: float,
+    hollow: float | None = None,
 ) -> InrunnerLayout:
     """Lay out motor, hub, cover and encoder.
 
@@ -72,6 +78,8 @@ def lay_out_inrunner(
         A millimetre at the scale of this machine, m.
     torque : float
         That the hub passes to the shaft, N m; it is as long as that asks for.
+    hollow : float or None
+        As `lay_out_encoder` takes it.
     """
     gap, stack, ring = motor.gap_diameter or 0.0, motor.stack_length or 0.0, motor.rotor_length or 0
     stack_inner, stack_outer = 0.5 * (gap + AIR_GAP), 0.5 * (motor.outer_diameter or 0.0)
@@ -100,12 +108,16 @@ def lay_out_inrunner(
     # Stiff enough to hold the stator out on it.
     flange = min(max(screw.length - grip, 2.5 * unit), housing.flange_bottom - joint)
     floor = min(stack_bottom - coil - 0.8 * unit, lip_bottom - unit)
-    encoder = lay_out_encoder(journal, hub_bottom - 0.5 * unit)
+    encoder = lay_out_encoder(journal, hub_bottom - 0.5 * unit, hollow)
     # The shaft reaches as far as its encoder, whose board lies in a dish below the floor.
     short = encoder.board_bottom - (floor - wall)
+    if encoder.open:
+        # A board round the shaft is wide: its screws' heads stay below the stator's coils.
+        heads = encoder.board_top + encoder.board_screw.head_height
+        short = max(short, heads - floor)
     if short > 0.0:
         hub_bottom -= short
-        encoder = lay_out_encoder(journal, hub_bottom - 0.5 * unit)
+        encoder = lay_out_encoder(journal, hub_bottom - 0.5 * unit, hollow)
     dish = max(encoder.board_radius, hub) + unit + wall
     ledge = round(0.5 * (coil_outer + stack_outer), 4)
     room = ledge - dish

@@ -13,24 +13,41 @@ from cqdd_design.solids.selection import CapScrew
 
 @dataclass(frozen=True)
 class EncoderPlace:
-    """Magnet at the end of a shaft, and the board under it; m.
+    """Magnet at the end of a shaft, and the board under it or round it; m.
 
     Attributes
     ----------
-    magnet_radius, magnet_height, magnet_bottom : float
-        Of the encoder's magnet: flush with the end of the shaft, or on it.
-    board_radius, board_bottom, board_top, sensor_top : float
-        Encoder board with its sensor.
+    magnet_inner, magnet_radius, magnet_height, magnet_bottom : float
+        Of the encoder's magnet: flush with the end of the shaft, or on it; a ring round a shaft
+        that stays open, of a magnet on the axis the inner radius is 0.
+    shaft_end : float
+        Height at which the shaft ends.
+    board_inner, board_radius, board_bottom, board_top, sensor_top : float
+        Encoder board with its sensor; the inner radius is 0 of one under the shaft.
+    seat_bottom : float
+        Height of the dish inside the board's seat, which is lower under a ring magnet.
+    way : float
+        Radius of the hole in the dish below an open shaft; 0 of a closed one.
     """
 
+    magnet_inner: float
     magnet_radius: float
     magnet_height: float
     magnet_bottom: float
+    shaft_end: float
+    board_inner: float
     board_radius: float
     board_bottom: float
     board_top: float
     sensor_top: float
     board_screw: CapScrew
+    seat_bottom: float
+    way: float
+
+    @property
+    def open(self) -> bool:
+        """Whether the shaft's hole goes on through the encoder."""
+        return self.magnet_inner > 0.0
 
 
 @dataclass(frozen=True)

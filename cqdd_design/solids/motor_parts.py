@@ -15,7 +15,7 @@ from cqdd_design.catalog.motors import Motor
 from cqdd_design.catalog.printing import made_how
 from cqdd_design.design import Design
 from cqdd_design.results import MassProperties
-from cqdd_design.solids import motor_shapes
+from cqdd_design.solids import encoder_shapes, motor_shapes
 from cqdd_design.solids.carrier import cap_screw_shape
 from cqdd_design.solids.features.holes import BoltCircle
 from cqdd_design.solids.features.housing import ear_circle
@@ -134,16 +134,25 @@ def motor_cover_part(shape: Stack, metal: str, features: tuple[Feature, ...]) ->
 
 def encoder_parts(design: Design, motor: MotorEnd, fastener: str) -> list[Part]:
     """Magnet, board and its screws, of a material."""
-    magnets = magnets_of(2.0 * motor.magnet_radius, motor.magnet_height)
-    size = f"{2e3 * motor.magnet_radius:g} x {motor.magnet_height * 1e3:g} mm"
-    magnet_name = magnets[0].name if magnets else f"diametric magnet NdFeB N35 {size}"
-    bits, on_board = design.drive.encoder_bits, board_features(motor)
-    board_name = next((one.name for one in sensors_with(bits)), f"magnetic encoder, {bits} bits")
+    on_board = board_features(motor)
+    bits = design.drive.encoder_bits
+    sensors = sensors_with(bits, beside=motor.open)
+    board_name = next((one.name for one in sensors), f"magnetic encoder, {bits} bits")
+    if motor.open:
+        magnet_name = (
+            f"ring magnet NdFeB N35, magnetised across, {2e3 * motor.magnet_radius:g} x "
+            f"{2e3 * motor.magnet_inner:g} x {motor.magnet_height * 1e3:g} mm"
+        )
+    else:
+        magnets = magnets_of(2.0 * motor.magnet_radius, motor.magnet_height)
+        size = f"{2e3 * motor.magnet_radius:g} x {motor.magnet_height * 1e3:g} mm"
+        magnet_name = magnets[0].name if magnets else f"diametric magnet NdFeB N35 {size}"
+    magnet, board = encoder_shapes.encoder_magnet(motor), encoder_shapes.encoder_board
     return [
-        piece("encoder magnet", motor_shapes.encoder_magnet(motor), MAGNET_MATERIAL, _MAGNET,
-              magnet_name, body=SHAFT, z=motor.magnet_bottom),
-        piece("encoder board", motor_shapes.encoder_board(motor, on_board), BOARD_MATERIAL, _BOARD,
-              board_name, features=on_board),
+        piece("encoder magnet", magnet, MAGNET_MATERIAL, _MAGNET, magnet_name, body=SHAFT,
+              z=motor.magnet_bottom),
+        piece("encoder board", board(motor, on_board), BOARD_MATERIAL, _BOARD, board_name,
+              features=on_board),
         _screws("encoder screw", motor.board_screw, fastener, board_circle(motor), motor.board_top),
     ]  # fmt: skip
 

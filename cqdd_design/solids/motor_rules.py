@@ -23,7 +23,8 @@ from cqdd_design.catalog.adhesives import ROTOR_COMPOUND, SAFETY, length_needed
 from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.geometry.scale import MOST_TUBE_WALL
-from cqdd_design.solids.motor_layout import EncoderPlace, MotorLayout
+from cqdd_design.solids.encoder_rules import lay_out_encoder
+from cqdd_design.solids.motor_layout import MotorLayout
 from cqdd_design.solids.registers import spigot_depth
 from cqdd_design.solids.rotor_pull import (
     NO_HOLES,
@@ -46,11 +47,6 @@ _LEAST_FILL = 0.6
 """Of a rotor's ring: gaps between magnets and cuts in the iron leave more."""
 _COIL_SHARE = 0.5
 """Height of the coils' ends over the depth of the slots."""
-_SENSOR_GAP = 1.0e-3
-"""From magnet to sensor; makers of magnetic encoders ask for 0.5 to 2 mm."""
-_SENSOR_HEIGHT, _BOARD_THICKNESS = 0.9e-3, 1.6e-3
-_MAGNETS = (3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0)
-"""Diameters of diametric encoder magnets, mm; they are half as high, 2.5 mm at the most."""
 _LEAST_EFFICIENCY = 0.6
 """Of a gearbox between motor and output."""
 _LIGHTENING = 6
@@ -196,28 +192,6 @@ def hub_length(torque: float, diameter: float) -> float:
     return min(math.ceil(needed * 2e3) / 2e3, _MOST_HUB * diameter)
 
 
-def lay_out_encoder(journal: float, end: float) -> EncoderPlace:
-    """The encoder at the end of a shaft of a radius, at a height; m."""
-    magnet = next((d for d in reversed(_MAGNETS) if d <= 1.3e3 * journal), _MAGNETS[0]) * 1e-3
-    height = min(0.5 * magnet, 2.5e-3)
-    # In a pocket of the shaft; on the end of a shaft too thin for one.
-    magnet_bottom = end if magnet <= 1.3 * journal + 1e-9 else end - height
-    sensor_top = magnet_bottom - _SENSOR_GAP
-    board_top = sensor_top - _SENSOR_HEIGHT
-    screw = cap_screw(2e-3, _BOARD_THICKNESS + 2.0e-3)
-    return EncoderPlace(
-        0.5 * magnet,
-        height,
-        magnet_bottom,
-        # Its screws' heads are higher than the gap to the shaft's end: they stand beside it.
-        max(0.5 * magnet + 9e-3, journal + screw.head_diameter + 0.9e-3),
-        board_top - _BOARD_THICKNESS,
-        board_top,
-        sensor_top,
-        screw,
-    )
-
-
 def _most_holes(hub: float, rim: float, unit: float) -> WebHoles:
     """The largest lightening holes that go into a bell's web, none where they save nothing."""
     room = rim - 2.0 * unit - hub - 1.5 * unit
@@ -236,6 +210,7 @@ def lay_out_motor(
     *,
     weights: bool,
     metal: Material,
+    hollow: float | None = None,
 ) -> MotorLayout:
     """Lay out motor, bell, cover and encoder.
 
@@ -253,6 +228,8 @@ def lay_out_motor(
         Whether room for balance weights is left about the bell.
     metal : Material
         Of the bell, whose web is as thick as the pull on the rotor asks for.
+    hollow : float or None
+        As `lay_out_encoder` takes it.
     """
     gap, depth = motor.gap_diameter or 0.0, motor.slot_depth or 0.0
     stack, ring = motor.stack_length or 0.0, motor.rotor_length or 0.0
@@ -276,7 +253,7 @@ def lay_out_motor(
     web_bottom = web_top - web
     hub_top = housing.bottom - 0.8 * unit
     hub_bottom = min(web_bottom, hub_top - hub_length(torque, 2.0 * journal))
-    encoder = lay_out_encoder(journal, hub_bottom - 0.5 * unit)
+    encoder = lay_out_encoder(journal, hub_bottom - 0.5 * unit, hollow)
 
     inner = bell + unit
     wall = 1.6 * unit

@@ -1,4 +1,4 @@
-"""Shapes of motor, bell, cover and encoder, and of the dowels round the ring.
+"""Shapes of motor, bell and cover, and of the dowels round the ring.
 
 Drawn in the frame of the body each belongs to, with heights as in `layout`.
 """
@@ -8,13 +8,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-import numpy as np
-
 from cqdd_design.geometry.contours import ArcContour, Circle, PlanarPart
 from cqdd_design.geometry.grooves import grooved_circle
+from cqdd_design.solids.encoder_shapes import dish_plate
 from cqdd_design.solids.features.holes import FittedHole
 from cqdd_design.solids.features.kinds import Feature
-from cqdd_design.solids.features.motor import dish_bottom
 from cqdd_design.solids.features.removal import drillings
 from cqdd_design.solids.layers import (
     Annulus,
@@ -22,15 +20,12 @@ from cqdd_design.solids.layers import (
     Stack,
     circle,
     cylinder,
-    prism,
     reshaped,
     scalloped_circle,
     turned,
 )
 from cqdd_design.solids.layout import DowelLayout, Layout
-from cqdd_design.solids.motor_layout import MotorEnd, MotorLayout
-
-_SENSOR_SIDE = 3.0e-3
+from cqdd_design.solids.motor_layout import MotorLayout
 
 
 def stator(motor: MotorLayout) -> Stack:
@@ -139,12 +134,11 @@ def motor_cover(
     """The can over the bell: wall with ears, floor, and a dish for the encoder's board."""
     floor, wall = motor.cover_floor, motor.cover_wall
     dish = max(motor.board_radius, motor.hub_radius) + 1.0 * unit
-    bottom = dish_bottom(motor, unit)
     floor_bottom = floor - wall
     # The dish's plate, its wall up to the floor, the floor, and the can.
     dish_wall_bottom = min(motor.board_bottom, floor_bottom)
     rings = [
-        Annulus(bottom, motor.board_bottom, 0.0, dish + wall),
+        *dish_plate(motor, unit, dish + wall),
         Annulus(dish_wall_bottom, floor_bottom, dish, dish + wall)
         if motor.board_bottom < floor_bottom
         else Annulus(0.0, 0.0, 0.0, 0.0),
@@ -162,36 +156,6 @@ def motor_cover(
         flange_bottom,
         lambda shape: PlanarPart(shape.name, ears, (*shape.holes, *holes)),
     )
-
-
-def encoder_magnet(motor: MotorEnd) -> Stack:
-    """Diametric magnet in the end of the shaft, standing on z = 0."""
-    return prism(PlanarPart("magnet", circle(motor.magnet_radius)), 0.0, motor.magnet_height)
-
-
-def encoder_board(motor: MotorEnd, features: Sequence[Feature]) -> Stack:
-    """Round board with the sensor's package over its middle."""
-    half = 0.5 * _SENSOR_SIDE
-    package = ArcContour(
-        np.array([[half, -half], [half, half], [-half, half], [-half, -half]]), np.zeros(4)
-    )
-    board = turned(
-        [Annulus(motor.board_bottom, motor.board_top, 0.0, motor.board_radius)],
-        drillings(features),
-    )
-    sensor = Layer(PlanarPart("sensor", package), motor.board_top, motor.sensor_top)
-    return Stack((*board.layers, sensor))
-
-
-def with_magnet_pocket(shaft: Stack, motor: MotorEnd) -> Stack:
-    """The shaft with a pocket for the magnet in its lower end, where the magnet is inside."""
-    if motor.magnet_bottom < shaft.bottom - 1e-9:
-        return shaft
-
-    def pocketed(shape: PlanarPart) -> PlanarPart:
-        return PlanarPart(shape.name, shape.outer, (circle(motor.magnet_radius),))
-
-    return reshaped(shaft, shaft.bottom, shaft.bottom + motor.magnet_height, pocketed)
 
 
 def with_dowel_notches(ring: Stack, radius: float, holes: FittedHole) -> Stack:

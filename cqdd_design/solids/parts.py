@@ -24,6 +24,7 @@ from cqdd_design.solids import rotating
 from cqdd_design.solids.behind_shapes import with_neck
 from cqdd_design.solids.clocking import DiscGroup, disc_groups
 from cqdd_design.solids.counterweights import balance_weights
+from cqdd_design.solids.encoder_shapes import with_magnet_pocket
 from cqdd_design.solids.features import carrier as carrier_features
 from cqdd_design.solids.features import zones
 from cqdd_design.solids.features.flat import SIGMAS, disc_features, ring_features
@@ -51,7 +52,6 @@ from cqdd_design.solids.motor_parts import dowel_part, motor_parts
 from cqdd_design.solids.motor_shapes import (
     with_dowel_grooves,
     with_dowel_notches,
-    with_magnet_pocket,
     with_motor_flange,
 )
 from cqdd_design.solids.mounting import SCREW_MATERIAL

@@ -58,6 +58,11 @@ from cqdd_design.solids.selection import (
 
 _LEAST_FLOOR = 1.5
 """Thickness of the housing's floor under the shaft's bearing, units."""
+_LEAST_TUBE, _LEAST_TUBE_SHARE = 1.25, 0.2
+"""Least wall of a hollow journal, units, and over its radius: thinner ones do not stay round in the
+grinder's chuck and under the bearing's press fit."""
+_LEAST_HOLE = 0.75e-3
+"""Radius of the smallest hole that is drilled through a shaft, m."""
 _LEAST_CORE_SHARE = 0.2
 """Least core of the eccentric shaft as a share of the cam bearing's bore radius."""
 
@@ -87,21 +92,27 @@ def lay_out(design: Design, cam_bearing: Bearing, motor: Motor) -> Layout:
     row, behind, missing = place.outrunner, place.behind, place.missing
     housing, seat_top = _housing(design, pack, carrier, support, unit, place)
     drawn, inside, torque = None, None, bell_torque(design, motor)
+    wanted = design.requirements.bore
+    hole = _shaft_hole(support, unit, wanted)
+    hollow = None if wanted is None else hole
     if row is not None:
         missing = behind_rules.misfit(row, support, unit) if behind else ""
         if not missing:
             rule = behind_rules.lay_out_behind if behind else lay_out_motor
             weights = design.reducer.balance.counterweights
             metal = find_material(bell_material(design))
-            drawn = rule(row, pack, housing, support, unit, torque, weights=weights, metal=metal)
+            drawn = rule(
+                row, pack, housing, support, unit, torque,
+                weights=weights, metal=metal, hollow=hollow,
+            )  # fmt: skip
     elif is_inrunner(motor) and not missing:
         missing = misfit(motor, support, unit)
         if not missing:
-            inside = lay_out_inrunner(motor, housing, support, unit, torque)
+            inside = lay_out_inrunner(motor, housing, support, unit, torque, hollow)
     return Layout(
         unit=unit,
         pack=pack,
-        shaft=_shaft(pack, support, core, housing, seat_top, unit, drawn or inside),
+        shaft=_shaft(pack, support, core, housing, seat_top, unit, drawn or inside, hole),
         carrier=carrier,
         housing=housing,
         dowels=ring_dowels(design, pack, housing, unit),
@@ -342,6 +353,19 @@ def _housing(
     return layout, seat_top
 
 
+def _shaft_hole(support: ChosenBearing, unit: float, wanted: float | None) -> float:
+    """Radius of the hole through the shaft, m: what lightens it, or more where that is asked for.
+
+    What is too small to be drilled is left out later; a wall has to remain that can be ground.
+    """
+    journal = 0.5 * support.bearing.bore_diameter
+    usual = journal - max(2.5 * unit, 0.3 * journal)
+    if wanted is None:
+        return usual
+    most = journal - max(_LEAST_TUBE * unit, _LEAST_TUBE_SHARE * journal)
+    return max(usual, min(0.5 * wanted, most))
+
+
 def _shaft(
     pack: PackLayout,
     support: ChosenBearing,
@@ -350,6 +374,7 @@ def _shaft(
     seat_top: float,
     unit: float,
     motor: MotorEnd | None,
+    hole: float,
 ) -> ShaftLayout:
     journal = support.bearing.bore_diameter
     cam_bore = 0.5 * pack.cam.bearing.bore_diameter
@@ -359,17 +384,17 @@ def _shaft(
     if abs(abs(web - cam_bore) - pack.eccentricity) < 0.02e-3:
         web -= 0.05e-3
     upper = pack.top + pack.gap
-    hole = journal - 2.0 * max(2.5 * unit, 0.15 * journal)
     bottom = housing.bottom - min(1.2 * journal, 12.0 * unit)
     if motor is not None:
-        bottom = motor.hub_bottom - 0.5 * unit
-        # The encoder's magnet needs a seat at the end of the bore.
-        hole = min(hole, 2.0 * motor.magnet_radius - 0.8e-3)
+        bottom = motor.shaft_end
+        if not motor.open:
+            # The encoder's magnet needs a seat at the end of the bore.
+            hole = min(hole, motor.magnet_radius - 0.4e-3)
     return ShaftLayout(
         support=support,
         shoulder_radius=core,
         web_radius=max(web, core + 0.05e-3),
-        bore_radius=0.5 * hole if hole >= 1.5e-3 else 0.0,
+        bore_radius=hole if hole >= _LEAST_HOLE else 0.0,
         lower_seat_top=seat_top,
         upper_seat_bottom=upper,
         bottom=bottom,

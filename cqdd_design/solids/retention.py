@@ -44,7 +44,7 @@ _FASTENED = (
     ("encoder board", "motor cover", "its screws"),
     ("encoder screw", "motor cover", "its thread"),
     *((weight, "rotor bell", "bond on the bell") for weight in WEIGHTS),
-    ("encoder magnet", "eccentric shaft", "bond in its pocket"),
+    ("encoder magnet", "eccentric shaft", "bond"),
     ("eccentric cam", "eccentric shaft", "press fit p6"),
     ("cam bearing", "disc", "press fit N7"),
     ("shaft shim", "carrier plate", "in its seat under the shoulder"),

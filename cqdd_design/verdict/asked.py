@@ -15,6 +15,7 @@ from cqdd_design.machine.carrying import carried_torque
 from cqdd_design.machine.heat_nodes import Node
 from cqdd_design.results import Check
 from cqdd_design.solids.motor_rules import light_rotor
+from cqdd_design.verdict.bore_line import bore_line
 from cqdd_design.verdict.evidence import Evidence
 from cqdd_design.verdict.headline import Figure, backlash, efficiency, mass
 
@@ -79,26 +80,9 @@ def _shock(evidence: Evidence) -> Iterator[Check]:
 
 
 def _bore(evidence: Evidence) -> Iterator[Check]:
-    machine = evidence.machine
-    wanted = machine.design.requirements.bore
-    if wanted is None:
-        return
-    cure = "no other encoder is drawn here: place one beside the shaft, and widen its bore"
-    try:
-        layout = machine.layout
-    except GeometryError as error:
-        yield build_check("BORE", None, 1e3 * wanted, error.message, "see why nothing is drawn")
-        return
-    hole = 2e3 * layout.shaft.bore_radius
-    closed = layout.motor_end is not None
-    yield build_check(
-        "BORE",
-        0.0 if closed else hole,
-        1e3 * wanted,
-        f"{hole:.3g} mm through the shaft"
-        + (", closed by the encoder's magnet on its axis" if closed else ""),
-        cure if closed else "take a cam bearing and support bearings with a larger bore",
-    )
+    line = bore_line(evidence.machine)
+    if line is not None:
+        yield line
 
 
 def _mass(evidence: Evidence) -> Iterator[Check]:

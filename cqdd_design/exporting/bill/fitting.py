@@ -14,6 +14,7 @@ from cqdd_design.solids.features import zones
 if TYPE_CHECKING:
     from cqdd_design.machine import Machine
     from cqdd_design.solids.layout import Layout
+    from cqdd_design.solids.motor_layout import MotorEnd
     from cqdd_design.solids.part import Part
 
 _SAME = 1e-7
@@ -120,8 +121,6 @@ def _motor(machine: Machine) -> dict[str, str]:
     motor, outside = layout.motor_end, layout.motor is not None
     if motor is None:
         return {}
-    gap = motor.magnet_bottom - motor.sensor_top
-    board, thick = 2.0 * motor.board_radius, motor.board_top - motor.board_bottom
     return {
         "motor stator": (
             f"bonded on the housing's register, {2.0 * _MM * motor.stack_inner:g} {zones.REGISTER}"
@@ -131,15 +130,40 @@ def _motor(machine: Machine) -> dict[str, str]:
         ),
         "motor rotor": f"bonded {'into the bell' if outside else 'on the hub'} with "
         f"{ROTOR_COMPOUND.name}; comes with the stator",
-        "encoder magnet": (
-            "bonded into the shaft's end"
-            if motor.magnet_bottom >= layout.shaft.bottom - _SAME
-            else "bonded on the shaft's end, centred by a sleeve"
-        )
-        + f" with {ROTOR_COMPOUND.name}",
+        **(_ring_encoder(motor) if motor.open else _encoder(motor, layout.shaft.bottom)),
+    }
+
+
+def _encoder(motor: MotorEnd, shaft_end: float) -> dict[str, str]:
+    """Under the end of a shaft, whose height is told, m."""
+    inside = motor.magnet_bottom >= shaft_end - _SAME
+    place = "into the shaft's end" if inside else "on the shaft's end, centred by a sleeve"
+    gap = motor.magnet_bottom - motor.sensor_top
+    return {
+        "encoder magnet": f"bonded {place} with {ROTOR_COMPOUND.name}",
         "encoder board": (
             f"{_MM * gap:g} mm from magnet to sensor; the sensor stands in the middle of a round "
-            f"board of {_MM * board:g} mm, {_MM * thick:g} mm "
-            "thick, on three screws (outline in STEP)"
+            f"board of {_board(motor)}, on three screws (outline in STEP)"
         ),
     }
+
+
+def _ring_encoder(motor: MotorEnd) -> dict[str, str]:
+    """Round a hollow shaft."""
+    gap, hole = motor.board_inner - motor.magnet_radius, 2.0 * motor.board_inner
+    return {
+        "encoder magnet": (
+            f"slid on the shaft's stub last, flush with its end, and bonded with "
+            f"{ROTOR_COMPOUND.name}"
+        ),
+        "encoder board": (
+            f"sensor at half the magnet's height, the board's edge {_MM * gap:g} mm beside it; a "
+            f"round board of {_board(motor)}, with a hole of {_MM * hole:g} mm, on three screws "
+            "(outline in STEP); trim and calibrate the sensor for its place beside the shaft"
+        ),
+    }
+
+
+def _board(motor: MotorEnd) -> str:
+    thick = motor.board_top - motor.board_bottom
+    return f"{2.0 * _MM * motor.board_radius:g} mm, {_MM * thick:g} mm thick"

@@ -54,11 +54,12 @@ def substitutes(machine: Machine, part: Part) -> tuple[str, ...]:
             if key is None or passes(machine, {key: other.designation})
         ]
         found += equal_makes(row)
-    if part.name == "encoder board":
-        bits = machine.design.drive.encoder_bits
-        found += [one.name for one in sensors_with(bits) if one.name != named]
     motor = machine.layout.motor_end
-    if part.name == "encoder magnet" and motor is not None:
+    if part.name == "encoder board" and motor is not None:
+        bits = machine.design.drive.encoder_bits
+        sensors = sensors_with(bits, beside=motor.open)
+        found += [one.name for one in sensors if one.name != named]
+    if part.name == "encoder magnet" and motor is not None and not motor.open:
         sizes = magnets_of(2.0 * motor.magnet_radius, motor.magnet_height)
         found += [one.name for one in sizes if one.name != named]
     longer = longer_screw(machine, part.name)

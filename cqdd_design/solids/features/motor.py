@@ -16,6 +16,8 @@ from cqdd_design.solids.registers import LEAD_IN
 _BOARD_SCREWS = 3
 _BOARD_GAP = 0.4e-3
 """Between the heads of the board's screws and its edge, m."""
+_THIN = 1.2
+"""Thickness of the dish under a ring magnet, units."""
 
 
 def bell_features(motor: MotorLayout, stub_radius: float) -> tuple[Feature, ...]:
@@ -61,9 +63,10 @@ def board_circle(motor: MotorEnd) -> BoltCircle:
 def dish_bottom(motor: MotorEnd, unit: float) -> float:
     """Height of the underside of the dish that carries the board, m.
 
-    The board's screws need a plate they do not come through.
+    The board's screws need a plate they do not come through; under a ring magnet it is thinner.
     """
-    return motor.board_bottom - max(2.0 * unit, _board_thread(motor) + 0.5e-3)
+    under = motor.board_bottom - max(2.0 * unit, _board_thread(motor) + 0.5e-3)
+    return min(under, motor.seat_bottom - _THIN * unit) if motor.open else under
 
 
 def _board_thread(motor: MotorEnd) -> float:

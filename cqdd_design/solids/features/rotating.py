@@ -110,9 +110,12 @@ def lobe_features(
 
 
 def _motor_end(shaft: ShaftLayout, motor: MotorEnd) -> list[Feature]:
-    """The stub for the rotor, and the pocket of the encoder's magnet where it is inside."""
+    """The stub for the rotor, and for a ring magnet; the pocket of a magnet that is inside."""
     name = "rotor hub" if isinstance(motor, InrunnerLayout) else "rotor bell"
     bell = Joint(name, "bonded", "lower journal and rotor seat", name, "bond on the stub")
+    if motor.open:
+        return [bell, Joint("encoder magnet", "bonded", "lower journal and rotor seat",
+                            "encoder magnet", "bond on the stub")]  # fmt: skip
     if motor.magnet_bottom < shaft.bottom - 1e-9:
         return [bell]
     top = shaft.bottom + motor.magnet_height
