@@ -115,9 +115,8 @@ def size(
     **asked: Any,
 ) -> int:
     """Requirements to a design file whose verdict is yes."""
-    from cqdd_design.design.toml import tables_not_asked
     from cqdd_design.exporting import read_kinds
-    from cqdd_design.library.inputs import read_wanted
+    from cqdd_design.library.inputs import not_taken_over, read_wanted
     from cqdd_design.roads.size import size_and_write
     from cqdd_design.units import TEMPERATURE
 
@@ -133,12 +132,8 @@ def size(
         duty=duty,
         duty_columns=duty_columns,
     )
-    if requirements is not None and (left := tables_not_asked(requirements)):
-        names = ", ".join(f"[{name}]" for name in left)
-        out.warn(
-            f"of {requirements} what is asked for and the motor are read, but not {names}: the "
-            "design has its defaults there; --ambient states the air."
-        )
+    if requirements is not None and (left := not_taken_over(requirements)):
+        out.warn(left)
     if not quick or report:
         stopped = wanted.requirements.shock_speed > 0.0
         out.compile_ahead(simulation=report or stopped, ensembles=True, sizing=True)

@@ -13,6 +13,7 @@ from cqdd_design.library.calls import of_arguments, road, si_value
 from cqdd_design.library.inputs import (
     DesignLike,
     PathLike,
+    not_taken_over,
     path_of,
     read_design,
     read_wanted,
@@ -176,7 +177,8 @@ def size(
     ratio : int
         Reduction, 4 to 119: the lobes of a disc. It may stand in `requirements` instead.
     requirements : Requirements or path, optional
-        A file with a table ``[requirements]``, or the values; named arguments replace its keys.
+        A file with a table ``[requirements]``, or the values; named arguments replace its keys. Of
+        a file its motor is read too; a warning names tables that are not.
     motor : str, optional
         Of the catalogue, or ``"any"``: the first that fits. Default CubeMars RO100 KV55.
     motor_file : path, optional
@@ -231,6 +233,8 @@ def size(
     source: Requirements | Path | None = None
     if isinstance(requirements, str) or hasattr(requirements, "__fspath__"):
         source = path_of("requirements", requirements)
+        if left := not_taken_over(source):
+            warnings.warn(of_arguments(left), stacklevel=3)
     elif requirements is not None:
         source = requirements
     wanted = read_wanted(

@@ -101,6 +101,19 @@ def under_duty(design: Design, duty: Path | None, columns: str | None) -> Design
     return design.under_duty(read_duty(duty, named), str(duty), named)
 
 
+def not_taken_over(path: Path) -> str:
+    """What `size` leaves unread of a requirements or design file, in a sentence; or nothing."""
+    from cqdd_design.design.toml import tables_not_asked
+
+    names = ", ".join(f"[{name}]" for name in tables_not_asked(path))
+    if not names:
+        return ""
+    return (
+        f"of {path} what is asked for and the motor are read, but not {names}: the design has its "
+        "defaults there; --ambient states the air."
+    )
+
+
 class Wanted(NamedTuple):
     """What is to be sized.
 

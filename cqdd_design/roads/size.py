@@ -242,14 +242,15 @@ def size_design(
         goal=goal,
         progress=progress,
     )
+    sizing = found.sizing.named(place.stem)
     # Both are written to the file even where they equal their defaults.
     own = {"schema_version": 1, "name": place.stem}
-    design = _duty_from(found.sizing.design.replacing(own), place.parent)
+    design = _duty_from(sizing.design.replacing(own), place.parent)
     if motor is not None:
         design = design.with_motor(requirements.motor if named else None, motor)
         design = design if named else design.leaving("requirements.motor")
     verdict = found.verdict and replace(found.verdict, name=place.stem)
-    return Road(found.sizing, design, (), verdict, found.derived, found.choice)
+    return Road(sizing, design, (), verdict, found.derived, found.choice)
 
 
 def _sized(
@@ -299,7 +300,7 @@ def _sized(
         return replace(found, sizing=sizing)
     from cqdd_design.verdict import judge
 
-    progress(f"judging {sizing.design.name} by the whole verdict")
+    progress("judging the alternative by the whole verdict")
     return replace(found, sizing=sizing, verdict=judge(resolve(sizing.design, row)))
 
 

@@ -12,7 +12,7 @@ from cqdd_design.actuator.operating import held_torque
 from cqdd_design.catalog.motors import Motor, find_motor
 from cqdd_design.design import Requirements
 from cqdd_design.design.motor import MotorTable
-from cqdd_design.errors import InfeasibleError
+from cqdd_design.errors import ContactError, DesignError, InfeasibleError
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine
 
@@ -35,6 +35,10 @@ _SAME = 0.05
 
 class TooHotError(InfeasibleError):
     """A motor holds no torque for ever at the speed that is asked for."""
+
+
+class NotSimulatedError(InfeasibleError):
+    """Of a gearbox that bears the loads no actuator can be simulated, and so none judged."""
 
 
 def first_guess(requirements: Requirements, motor: Motor | None) -> Requirements:
@@ -76,11 +80,23 @@ def what_it_can(
     ------
     TooHotError
         When the motor holds no torque for ever at the speed that is asked for.
-    DesignError
+    ContactError
+        When the gearbox has no equilibrium at some angle.
+    NotSimulatedError
         When the actuator cannot be simulated.
     """
     free = requirements.derived
-    actuator = actuator_parameters(machine)
+    try:
+        actuator = actuator_parameters(machine)
+    except ContactError:
+        raise
+    except DesignError as error:
+        torques = (
+            f"{requirements.peak_torque:g} and {requirements.continuous_torque:g} N*m for ever"
+        )
+        raise NotSimulatedError(
+            f"no actuator can be simulated of what bears {torques}: {error.message}"
+        ) from error
     changed: dict[str, Any] = {}
     if PEAK in free:
         most = demands(actuator, requirements)[0].found.most

@@ -203,6 +203,7 @@ def _ready(frame: Frame, space: SearchSpace, found: Screened, wanted: float) -> 
         Sizes(
             eccentricity=found.rings.eccentricity[ring],
             thickness=space.thickness[thickness],
+            pin_count=np.array(space.pin_counts)[rows.count[row]],
             pin_circle=rows.circle[row],
             hole_clearance=plays[rows.size[row]],
             outer_radius=outer[ring],

@@ -6,6 +6,7 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cqdd_design.catalog.bearings import FRICTION_COEFFICIENT
 from cqdd_design.gearbox.film.mixed import BOUNDARY_FRICTION
@@ -15,6 +16,7 @@ from cqdd_design.sizing.masses import Weights
 
 _NEEDLES = FRICTION_COEFFICIENT["needle cage"] / BOUNDARY_FRICTION
 """Friction of a pin on needles over that of a bare one."""
+_PINS_PLAY, _FEW_PINS_PLAY = 0.77, 2.9
 _TIE = 0.02
 """Power of the mass beside another goal: of two equal ones the lighter is the better."""
 
@@ -23,11 +25,12 @@ class Sizes(NamedTuple):
     """What goals need beside weights; all broadcast with them, SI.
 
     `hole_clearance` is on the diameter; `friction` is the number of
-    :class:`~cqdd_design.sizing.stage_tables.StageTables`.
+    :class:`~cqdd_design.sizing.stage_tables.StageTables`; of one disc are the `pin_count` holes.
     """
 
     eccentricity: FloatArray
     thickness: FloatArray
+    pin_count: NDArray[np.intp]
     pin_circle: FloatArray
     hole_clearance: FloatArray
     outer_radius: FloatArray
@@ -60,13 +63,18 @@ def tied(value: float, mass: float) -> float:
 
 
 def backlash_angle(frame: Frame, sizes: Sizes) -> FloatArray:
-    """Play of the output by teeth and pins, rad.
+    """About the play of the output that 95 % of toleranced gearboxes stay below, rad.
 
-    Teeth have their gap at both flanks and their longest arm n e, pins their clearance at R_w:
-    2 q/(n e) + c/R_w. The equilibrium's mean backlash of rigid parts is within a tenth of it.
+    Teeth have their gap at both flanks and their longest arm n e, pins their clearance at R_w, of
+    which little contributes where many share it: 2 q/(n e) + (0.77 + 2.9/(N_w D)) c/R_w, by least
+    squares over 70 gearboxes of ratios 6 to 20, 1 to 3 discs, 4 to 12 pins and 5 fits at the usual
+    tolerances, 64 of each: within 7 % r.m.s., at worst 32 % above and 10 % below.
     """
     arm = frame.lobe_count * sizes.eccentricity
-    return np.asarray(2.0 * frame.equidistant / arm + sizes.hole_clearance / sizes.pin_circle)
+    pins = _PINS_PLAY + _FEW_PINS_PLAY / (sizes.pin_count * frame.disc_count)
+    return np.asarray(
+        2.0 * frame.equidistant / arm + pins * sizes.hole_clearance / sizes.pin_circle
+    )
 
 
 def friction_share(frame: Frame, sizes: Sizes) -> FloatArray:

@@ -207,7 +207,7 @@ def closer_look(hunt: Hunt, found: Found, machine: Machine) -> float | None:
 
     Limits are the same whether discs and ring yield or not; the quicker way leads to them.
     """
-    hunt.say(f"looking at toleranced gearboxes of {found.sized.design.name}")
+    hunt.say("looking at toleranced gearboxes of a design")
     try:
         drawn = _drawn(hunt, machine)
     except ContactError:
@@ -333,8 +333,9 @@ def read_spread(
     slack, soft = (fails.get(name, 0) > most for name in ("backlash", "stiffness"))
     loose = slack or soft
     jams = max(one.lost for one in drawn)
-    # Half of what may fail, all of it where a backlash is asked for: clearance would cost that.
-    may = (0.5 if machine.design.requirements.backlash is None else 1.0) * (1.0 - share) * count
+    # Half of what may fail, all of it where backlash matters: clearance would cost that.
+    tight = machine.design.requirements.backlash is not None or hunt.goal == "backlash"
+    may = (1.0 if tight else 0.5) * (1.0 - share) * count
     if not (slack or (soft and not hunt.may_be_sturdier)) and fails["bind"] + jams > may:
         return _LEAST_STEP
     # What may fail is shared among the lines that do.

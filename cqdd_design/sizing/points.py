@@ -247,6 +247,7 @@ class Evaluator:
         sizes = Sizes(
             eccentricity=stage.eccentricity[own],
             thickness=b[..., None],
+            pin_count=pins.count[own],
             pin_circle=stage.pin_circle[own],
             hole_clearance=2.0 * (pins.play_radius - pins.running_radius)[own],
             outer_radius=stage.outer_radius[own],

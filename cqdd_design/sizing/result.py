@@ -201,6 +201,17 @@ class SizingResult(SizedDesign):
         others = tuple(one for one in self.alternatives if one is not picked)
         return replace(self, **vars(picked), alternatives=(first, *others), costs=())
 
+    def named(self, name: str) -> SizingResult:
+        """The same result with its design called so, and the alternatives so with their letters."""
+
+        def called(one: SizedDesign, name: str) -> SizedDesign:
+            return replace(one, design=one.design.replacing({"name": name}))
+
+        others = tuple(
+            called(one, f"{name}-{one.design.name.rpartition('-')[2]}") for one in self.alternatives
+        )
+        return replace(self, design=self.design.replacing({"name": name}), alternatives=others)
+
     def to_dict(self) -> dict[str, object]:
         """The JSON form (``results`` of ``size``), without the time it took."""
         return {

@@ -206,7 +206,7 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
                     found = less
                     continue
             if can is None and step is None:
-                progress(f"judging {found.sized.design.name} by the whole verdict")
+                progress("judging a design by the whole verdict")
                 # Nearly every design that comes so far is the answer.
                 with ThreadPoolExecutor(1) as beside:
                     result = beside.submit(_result, _aside(hunt), found, began)

@@ -108,6 +108,28 @@ def test_a_result_is_frozen_and_says_what_it_holds(name):
         assert re.search(rf"(?m)^{field.name} : ", whole), (name, field.name)
 
 
+def test_size_tells_what_of_a_file_it_does_not_read(tmp_path):
+    path = tmp_path / "asked.toml"
+    text = "[requirements]\nratio = 10\npeak_torque = '20 N*m'\n"
+    path.write_text(text)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        plain = cq.size(requirements=path, quick=True)
+    path.write_text(text + "[environment]\nambient = '40 degC'\n")
+    with pytest.warns(UserWarning, match=r"but not \[environment\].*; ambient states") as told:
+        found = cq.size(requirements=path, quick=True)
+    assert told[0].filename == __file__
+    assert found.design == plain.design
+
+
+def test_designs_and_alternatives_are_called_after_the_file(tmp_path):
+    found = cq.size(10, peak_torque="20 N*m", quick=True, out=tmp_path / "hip.toml")
+    names = [found.design.name, *(one.design.name for one in found.found.sizing.alternatives)]
+    assert names[0] == found.found.sizing.design.name == "hip"
+    assert len(names) > 1
+    assert all(re.fullmatch("hip-[bcd]", name) for name in names[1:])
+
+
 def test_arguments_of_size_are_the_keys_of_requirements():
     own = set(inspect.signature(cq.size).parameters) - {"asked"}
     keys = set(Asked.__annotations__)
