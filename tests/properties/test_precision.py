@@ -23,6 +23,7 @@ from contact_oracle import solve
 from examples import examples
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
+from scipy import optimize
 
 from cqdd_design.design import Design
 from cqdd_design.errors import ContactError, CqddError
@@ -32,7 +33,7 @@ from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
 from cqdd_design.gearbox.contact.rubbing import ContactFriction
 from cqdd_design.gearbox.contact.states import error_states
-from cqdd_design.gearbox.contact.sweep import contact_sweep, output_turn_angles
+from cqdd_design.gearbox.contact.sweep import contact_sweep, output_turn_angles, perfect_angles
 from cqdd_design.gearbox.precision.backlash import backlash
 from cqdd_design.gearbox.precision.backlash_kernel import OVERLAP
 from cqdd_design.gearbox.precision.orders import order_spectrum
@@ -229,17 +230,76 @@ def test_no_clearance_no_backlash() -> None:
     assert not found.preloaded
 
 
-def test_interference_is_preload_without_backlash() -> None:
-    for changes in (
-        {"reducer.modification.equidistant": -3e-6},
-        {"reducer.output_pins.hole_clearance": -10e-6},
-    ):
+def test_parts_pressed_from_both_sides_leave_no_backlash() -> None:
+    """Holes so small that they draw the discs into the teeth."""
+    changes = {"reducer.output_pins.hole_clearance": -20e-6}
+    model = ContactModel.from_design(paper_design().replacing(changes))
+    found = backlash(model, np.linspace(0.0, 1.1, 5))
+    assert found.preloaded
+    assert found.free.max() == 0.0
+    assert np.isfinite(found.overlap).all()
+    assert found.overlap.min() > 1e-7
+
+
+def pressed(stack: Rigid, phi: float, carrier: float) -> float:
+    """Least sum of the squares of all overlaps with the carrier held at an angle (rad), um^2."""
+    gamma = carrier * stack.pin_circle_radius * 1e6
+    least = 0.0
+    for index in range(stack.disc_count):
+        gaps = DiscGaps(stack, phi, index)
+
+        def overlaps(pose: np.ndarray, gaps: DiscGaps = gaps) -> np.ndarray:
+            off = float(np.hypot(*(pose[:2] - gaps.cam))) - 1e6 * gaps.half_play
+            return np.maximum([*-gaps(np.append(pose, gamma))[0], off], 0.0)
+
+        found = optimize.least_squares(overlaps, np.zeros(3), xtol=1e-14, ftol=1e-14, gtol=1e-14)
+        least += 2.0 * found.cost
+    return least
+
+
+@pytest.mark.parametrize(
+    ("gap", "clearance", "least"), [(-3e-6, 60e-6, 8.0), (6e-6, -10e-6, 1.5), (6e-6, -6e-6, 1.5)]
+)
+def test_what_is_pressed_leaves_other_joints_their_play(
+    gap: float, clearance: float, least: float
+) -> None:
+    """Ends by an own search: up to them no joint is pressed more, beyond them some are."""
+    changes = {
+        "reducer.modification.equidistant": gap,
+        "reducer.output_pins.hole_clearance": clearance,
+    }
+    model = ContactModel.from_design(paper_design().replacing(changes))
+    found = backlash(model, np.array([0.4]))
+    assert found.preloaded
+    assert found.free[0] > least * ARCMIN
+    assert_pressed_alike(rigid_of(model), 0.4, found.least[0], found.greatest[0])
+
+
+def assert_pressed_alike(stack: Rigid, crank: float, low: float, high: float) -> None:
+    """Overlaps are the same all over a range, but for a little, and grow beyond it."""
+    rest = pressed(stack, crank, 0.5 * (low + high))
+    micron = 1e-6 / stack.pin_circle_radius
+    inside = min(micron, 0.4 * (high - low))
+    for end, outward in ((low, -1.0), (high, 1.0)):
+        within = pressed(stack, crank, end - outward * inside)
+        assert within <= 1.05 * rest + 0.02
+        assert pressed(stack, crank, end + outward * micron) > within + 0.05
+
+
+@pytest.mark.parametrize("hole_clearance", [16e-6, 200e-6])
+def test_backlash_goes_on_where_the_last_gap_at_the_teeth_is_gone(hole_clearance: float) -> None:
+    """From 0.1 um of gap to 0.1 um of overlap, and at none at all, which many teeth share."""
+    found = []
+    for gap in (1e-7, 1e-8, 0.0, -1e-8, -1e-7):
+        changes = {
+            "reducer.modification.equidistant": gap,
+            "reducer.output_pins.hole_clearance": hole_clearance,
+        }
         model = ContactModel.from_design(paper_design().replacing(changes))
-        found = backlash(model, np.linspace(0.0, 1.1, 5))
-        assert found.preloaded
-        assert found.free.max() == 0.0
-        assert np.isfinite(found.overlap).all()
-        assert found.overlap.min() > 1e-7
+        found.append(backlash(model, perfect_angles(model, 72)).mean / ARCMIN)
+    assert np.all(np.diff(found) < 1e-3)
+    assert max(found) - min(found) < 0.09
+    assert min(found) > 3.8
 
 
 def test_parts_too_loose_for_a_backlash() -> None:
@@ -283,7 +343,7 @@ def test_backlash_repeats_after_the_mesh_period() -> None:
     "seed", [0, *(pytest.param(seed, marks=pytest.mark.deep) for seed in (1, 2, 3))]
 )
 def test_backlash_of_drawn_gearboxes_is_that_of_the_search(seed: int) -> None:
-    """Line to line: some angles are free by microns, some not at all, and all must be told.
+    """Line to line: some angles are free by microns, some pressed, and all must be told.
 
     Errors count to first order, which leaves tens of nanometres, and what overlaps by no more than
     `OVERLAP` counts as touching: the range lies between those of the search with holes smaller and
@@ -297,9 +357,13 @@ def test_backlash_of_drawn_gearboxes_is_that_of_the_search(seed: int) -> None:
     for a, crank in enumerate(angle):
         least = searched(model, errors, crank, -left_out)
         most = searched(model, errors, crank, left_out)
-        assert least - AGREED <= found.free[a] <= most + AGREED
         if least > 0.0:
             assert found.overlap[a] < found.preload_limit
+        if most > 0.0:
+            assert least - AGREED <= found.free[a] <= most + AGREED
+        else:
+            ends = found.least[a], found.greatest[a]
+            assert_pressed_alike(rigid_of(model, errors), crank, *ends)
 
 
 def searched(model: ContactModel, errors: GearboxErrors, crank: float, larger: float) -> float:

@@ -42,7 +42,7 @@ class Backlash:
         where the parts leave no range.
     overlap : array (A,)
         Greatest overlap that no motion removes, m; above `preload_limit` the parts are
-        preloaded and have no backlash there.
+        preloaded there, and the range is what other joints leave while they stay pressed.
     preload_limit : float
         m.
     """
@@ -55,7 +55,7 @@ class Backlash:
 
     @property
     def free(self) -> FloatArray:
-        """Backlash at every angle, (A,), rad; zero where parts are preloaded."""
+        """Backlash at every angle, (A,), rad; zero where parts are pressed from both sides."""
         return self.greatest - self.least
 
     @property
@@ -94,14 +94,14 @@ def backlash(
     ContactError
         Where the parts are so loose that the teeth pass each other.
     """
-    from cqdd_design.gearbox.precision.backlash_kernel import OVERLAP
+    from cqdd_design.gearbox.precision.backlash_kernel import CLOSED, OVERLAP
 
     if states is None:
         if crank_angle is None:
             crank_angle = perfect_angles(model) if errors is None else output_turn_angles(model)
         states = nominal_states(model, np.asarray(crank_angle, dtype=float))
     changed = error_states(model, states, errors)
-    ends, overlaps, extremes = [], [], []
+    ends, overlaps = [], []
     for sense in (-1.0, 1.0):
         gaps = changed.gaps
         end, overlap, poses = _push(model, states, changed, gaps, errors, sense)
@@ -114,15 +114,14 @@ def backlash(
             end, overlap, poses = _push(model, states, changed, gaps, errors, sense)
         ends.append(end)
         overlaps.append(overlap)
-        extremes.append(poses[:, 2])
     overlap = np.maximum(*overlaps)
-    # Parts that overlap wherever they go rest where their overlaps balance.
-    tight = (overlap > OVERLAP) | (ends[0] > ends[1])
-    rest = 0.5 * (extremes[0] + extremes[1]) / states.length
+    # Parts that are pressed from both sides rest where their overlaps balance.
+    closed = ends[1] - ends[0] <= np.where(overlap > OVERLAP, CLOSED / states.length, 0.0)
+    rest = 0.5 * (ends[0] + ends[1])
     return Backlash(
         crank_angle=states.crank_angle,
-        least=np.where(tight, rest, ends[0]),
-        greatest=np.where(tight, rest, ends[1]),
+        least=np.where(closed, rest, ends[0]),
+        greatest=np.where(closed, rest, ends[1]),
         overlap=overlap,
         preload_limit=OVERLAP,
     )

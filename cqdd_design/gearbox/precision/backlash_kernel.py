@@ -28,14 +28,25 @@ from cqdd_design.gearbox.contact.sweep_kernel import predict
 
 OVERLAP = 1e-7
 """Overlap, m, above which parts are said to be preloaded and not merely touching."""
+CLOSED = 5e-8
+"""Range at the pin circle, m, up to which preloaded parts leave none: springs yield to the push."""
 
 _PUSH = 2e-9
 """Force on springs of 1 N/m; the parts yield by about as many metres, which is taken off again."""
 _FIRM = 20.0
 _NEARLY_STILL = 2e-8
 """The same for states that do not settle: 4e-3 arcmin at 20 mm."""
-_TOUCHING = 2e-8
-"""Overlap, m, that freely touching parts stay below."""
+_CLOSE = 2e-7
+"""Metres at the pin circle within which states may go on changing: 0.03 arcmin at 20 mm."""
+_APART = 1e-10
+"""Added to all gaps where many of none at all leave a state undecided, m."""
+_AGAINST = 0.02
+"""Push on parts that are pressed on each other, over the greatest of their forces: on springs they
+give way by as much of their overlap, and the slope that their curved flanks make is less."""
+_YIELDS = 16.0
+"""Most that a push moves springs of 1 N/m by, over it; beyond that other contacts bear it."""
+_PUSHED = 4.0 * _PUSH
+"""Overlap, m, that the push alone stays below; beyond it parts are pressed on each other."""
 _ROUNDS, _FREE_ROUNDS = 40, 8
 _STILL = 2e-10
 """Metres at the pin circle between two rounds that count as standing still: 1e-4 arcmin or less."""
@@ -158,7 +169,6 @@ def backlash_sweep(
     springs = Springs(parts.tooth_centre.shape[0], 2, 2, 0.0, 0.0, np.zeros(discs), 1.0, 1.0, 0.0)
     state, origin, deviation = np.zeros(size), np.zeros(size), np.zeros(size)
     last, before = np.zeros(size), np.zeros(size)
-    push = sense * _PUSH
     for b in range(angles.size):
         a = angles[b]
         if b > 0:
@@ -169,7 +179,7 @@ def backlash_sweep(
         for j in range(pins.shape[0]):
             pins[j, 0] = length * math.cos(pin_angle[a, j])
             pins[j, 1] = length * math.sin(pin_angle[a, j])
-        squares, overlap, worst, still, tight = 0.0, 0.0, 0.0, False, 0
+        squares, overlap, moved, still, push = 0.0, 0.0, 0.0, False, sense * _PUSH
         for round_ in range(_ROUNDS):
             if round_ > _FREE_ROUNDS:
                 # Two states that lead to each other: linearise between them.
@@ -182,25 +192,44 @@ def backlash_sweep(
             firm = Load(_FIRM * push if round_ == 0 else push, 1.0)
             status, _, _ = solve_state(contacts, springs, firm, state, forces, work)
             if status != CONVERGED:
-                return b
+                # Many contacts of no gap at all, as of perfect parts: apart by next to nothing.
+                for d in range(discs):
+                    for k in range(count):
+                        gaps[d, k] += _APART
+                put(state, origin)
+                status, _, _ = solve_state(contacts, springs, firm, state, forces, work)
+                if status != CONVERGED:
+                    return b
             # States that change contacts with each other end up closer than anyone can measure.
             near = _NEARLY_STILL if round_ > 2 * _FREE_ROUNDS else _STILL
-            still = round_ > 0 and abs(state[2] - origin[2]) <= near
+            moved = abs(state[2] - origin[2])
+            still = round_ > 0 and moved <= near
             overlap, squares = _overlaps(forces)
-            # Parts that overlap wherever they go have no free range to converge to.
-            tight = tight + 1 if overlap > OVERLAP else 0
-            if round_ > _FREE_ROUNDS:
-                worst = max(worst, overlap)
-            if still or tight > 3:
+            if still:
                 break
-        if not (still or tight > 3):
-            if worst <= _TOUCHING:
+            # Of parts that are pressed on each other, more than what bends of their gaps does.
+            push = sense * (_PUSH if overlap <= _PUSHED else max(_PUSH, _AGAINST * overlap))
+        if overlap <= _PUSHED:
+            if not still and moved > _CLOSE:
                 return b
-            # Free by nanometres at most, on all sides: too little to be called a range.
-            overlap = max(worst, 2.0 * OVERLAP)
-        # What the springs yield to the push: the work of the push is that of the contact forces
-        # over gaps and overlaps, and rigid parts have the same forces without the overlaps.
-        found.ends[b] = (state[2] - squares / push) / length
+            # What the springs yield to the push: the work of the push is that of the contact forces
+            # over gaps and overlaps, and rigid parts have the same forces without the overlaps.
+            found.ends[b] = (state[2] - squares / push) / length
+        else:
+            if not still:
+                # A valley so shallow that its bottom is all there is.
+                for i in range(size):
+                    state[i] = 0.5 * (state[i] + origin[i])
+            put(origin, state)
+            contacts = Contacts(rows, gaps, ones, parts.offset[a], parts.half_play)
+            status, _, _ = solve_state(
+                contacts, springs, Load(0.5 * push, 1.0), state, forces, work
+            )
+            # In proportion to the push while the same contacts bear it.
+            yielded = 2.0 * (state[2] - origin[2])
+            same = status == CONVERGED and still and abs(yielded) <= _YIELDS * abs(push)
+            put(state, origin)
+            found.ends[b] = (state[2] + (yielded if same else 0.0)) / length
         found.preload[b] = overlap
         put(found.poses[b], state)
         for i in range(size):

@@ -108,7 +108,8 @@ class Precision:
         most = self.free.overlap.max() * 1e6
         return (
             f"parts overlap by up to {most:.3g} um whatever they do, at {100.0 * tight:.0f} % of "
-            "the crank angles: the gearbox is preloaded there and its backlash is zero.",
+            "the crank angles: the gearbox is preloaded there, and its backlash is that of joints "
+            "which are not pressed.",
         )
 
     def to_dict(self) -> dict[str, object]:

@@ -30,7 +30,7 @@ from cqdd_design.gearbox.contact.kernel_values import (
     YieldingResult,
 )
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
-from cqdd_design.gearbox.precision.backlash_kernel import OVERLAP, backlash_sweep
+from cqdd_design.gearbox.precision.backlash_kernel import CLOSED, OVERLAP, backlash_sweep
 from cqdd_design.gearbox.tolerance.following_kernel import follow, room, turns_between
 
 BACKLASH, TRANSMISSION_ERROR, RING_FORCE, STIFFNESS, RIPPLE = range(5)
@@ -324,8 +324,10 @@ def _free(
     free = 0.0
     for b in range(free_count):
         tight[b] = most.preload[b] > OVERLAP
-        if not tight[b]:
-            free += max(most.ends[b] - least.ends[b], 0.0)
+        width = most.ends[b] - least.ends[b]
+        # Pressed from both sides there is none.
+        if not (tight[b] and width <= CLOSED / parts.length):
+            free += max(width, 0.0)
     values[BACKLASH] = free / free_count
     return -1
 
