@@ -122,8 +122,10 @@ def analysis_lines(found: Analysis) -> list[str]:
         rows = _rows(section, _single(flat), limits)
         lines += [*_titled(section.title + _at(found, section.key), rows), ""]
     lines += _titled(_ELSEWHERE, _limit_rows(left.values()))
-    if found.asked_torque is not None:
-        lines += folded("Limits are judged at the requirements, not at the torque asked for.")
+    asked = {"torque": found.asked_torque, "speed": found.asked_speed}
+    if named := [name for name, value in asked.items() if value is not None]:
+        words = " and ".join(named)
+        lines += folded(f"Limits are judged at the requirements, not at the {words} asked for.")
     return [*lines, *_shock_lines(found.shocks)]
 
 
@@ -146,12 +148,15 @@ def _titled(title: str, rows: Sequence[Sequence[str]]) -> list[str]:
 
 def _at(found: Analysis, section: str) -> str:
     """What a section stands for, behind its title."""
-    load = found.at.get(section, UNLOADED)
+    load, told = found.at.get(section, UNLOADED), ""
     if load == ASKED:
-        return f", at {number(found.asked_torque or 0.0)} N*m (--torque)"
-    if load in (UNLOADED, "requirements"):
-        return ""
-    return f", over the {load}" if load == "duty" else f", at the {load}"
+        told = f", at {number(found.asked_torque or 0.0)} N*m (--torque)"
+    elif load not in (UNLOADED, "requirements"):
+        told = f", over the {load}" if load == "duty" else f", at the {load}"
+    if found.asked_speed is None or section == "geometry":
+        return told
+    rpm = found.asked_speed * 30.0 / math.pi
+    return f"{told}{' and' if told else ', at'} {number(rpm)} rpm (--speed)"
 
 
 def _rows(

@@ -202,7 +202,7 @@ def analyse(
     angles : int
         Crank angles of the curves, 8 to 100,000.
     speed : quantity, optional
-        Of the input, above zero; default that of the requirements.
+        Of the input, above zero; default that of the requirements, whose verdict stays.
     contact_law : {"palmgren", "johnson", "linear"}
         How line contacts yield to force.
     friction : {"drive", "backdrive", "off"}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
@@ -67,6 +68,8 @@ class Analysis:
         Why there are none.
     asked_torque : float or None
         What all loads are at, N m; None: those of the requirements.
+    asked_speed : float or None
+        Of the input, rad/s, in all but the verdict; None: that of the requirements.
     temperatures : MachineTemperatures or None
         At the duty, at the continuous torque, or at the one asked for.
     heat_missing : str
@@ -83,6 +86,7 @@ class Analysis:
     shocks: Mapping[str, Shock] = field(default_factory=dict)
     shock_missing: str = ""
     asked_torque: float | None = None
+    asked_speed: float | None = None
     temperatures: MachineTemperatures | None = None
     heat_missing: str = ""
 
@@ -133,7 +137,8 @@ class Analysis:
 
     def _head(self) -> dict[str, object]:
         """What there is without an equilibrium, and what all sections stand for."""
-        at = {"torque_Nm": self.asked_torque, "sections": self.at}
+        rpm = None if self.asked_speed is None else self.asked_speed * 30.0 / math.pi
+        at = {"torque_Nm": self.asked_torque, "speed_rpm": rpm, "sections": self.at}
         return {"at": at, "duty": self._duty()} | self.gearbox.to_dict()
 
     def _duty(self) -> dict[str, object] | None:
@@ -166,7 +171,7 @@ def analyse(
         At the output, N m, instead of peak and continuous torque and of the duty, for ever; only
         the verdict stays that of the requirements.
     speed : float, optional
-        Input speed, rad/s; default that of the requirements.
+        Of the input, rad/s, in all but the verdict; default that of the requirements.
     angles : int
         Crank angles over a period.
     line_model : {"palmgren", "johnson", "linear"}
@@ -190,18 +195,18 @@ def analyse(
         raise UsageError(
             f"--torque: {torque:.10g} N*m is outside {LEAST_TORQUE:g} to {MOST_TORQUE:g} N*m."
         )
-    asked = design if speed is None else design.turning_at(speed)
-    drawn = resolve(asked)
-    loaded = drawn
+    drawn = loaded = resolve(design)
+    if speed is not None:
+        loaded = replace(loaded, design=loaded.design.turning_at(speed))
     if torque is not None:
-        loaded = replace(drawn, design=drawn.design.under_torque(torque))
+        loaded = replace(loaded, design=loaded.design.under_torque(torque))
     machine = loaded
     if temperature is not None:
         machine = loaded.at(PartTemperatures.even(temperature))
     # What is judged is a matter of the design, whatever is asked for here.
     verdict = judge(drawn, samples=0)
     warm, cold = verdict.evidence.temperatures, verdict.evidence.heat_missing
-    if torque is not None:
+    if loaded is not drawn:
         warm, _, told = judged_temperatures(loaded)
         cold = "" if warm else " ".join(told)
     found = Analysis(
@@ -211,6 +216,7 @@ def analyse(
         contact=None,
         missing="",
         asked_torque=torque,
+        asked_speed=speed,
         temperatures=warm,
         heat_missing=cold,
     )

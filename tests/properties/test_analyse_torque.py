@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from cqdd_design.cli.analysis_text import analysis_lines
 from cqdd_design.design import load_design
 from cqdd_design.roads.analyse import ASKED, UNLOADED, Analysis, analyse
 
@@ -61,3 +62,35 @@ def test_nothing_that_follows_stays_and_the_verdict_does(asked: Analysis, usual:
     assert [line.to_dict() for line in asked.checks] == [line.to_dict() for line in usual.checks]
     assert told["life"]["duty"][0]["torque_Nm"] == TORQUE
     assert told["losses"]["torque_Nm"] == told["precision"]["torque_Nm"] == TORQUE
+
+
+def test_a_speed_moves_its_sections_and_not_the_verdict() -> None:
+    """A design that fails at its own speed does not pass because it was looked at at another."""
+    design = load_design(PAPER)
+    usual = analyse(design, angles=8)
+    slow = analyse(design, speed=20.0, angles=8)
+    assert [line.to_dict() for line in slow.checks] == [line.to_dict() for line in usual.checks]
+    assert slow.machine.given == design
+    told, before = slow.to_dict(), usual.to_dict()
+    assert told["at"]["speed_rpm"] == pytest.approx(20.0 * 30.0 / 3.141592653589793)
+    assert before["at"]["speed_rpm"] is None
+    same = analyse(design.turning_at(20.0), angles=8).to_dict()
+    for section in slow.at:
+        if section != "checks":
+            assert told[section] == same[section], section
+    assert told["losses"] != before["losses"]
+    lines = " ".join(analysis_lines(slow))
+    assert "and 191 rpm (--speed)" in lines
+    assert "judged at the requirements, not at the speed asked for" in " ".join(lines.split())
+
+
+def test_torque_and_speed_together_are_both_told() -> None:
+    both = analyse(load_design(PAPER), torque=TORQUE, speed=20.0, angles=8)
+    same = analyse(load_design(PAPER).turning_at(20.0), torque=TORQUE, angles=8).to_dict()
+    told = both.to_dict()
+    for section, load in both.at.items():
+        if load in (ASKED, UNLOADED):
+            assert told[section] == same[section], section
+    lines = " ".join(" ".join(analysis_lines(both)).split())
+    assert "at 25 N*m (--torque) and 191 rpm (--speed)" in lines
+    assert "not at the torque and speed asked for" in lines
