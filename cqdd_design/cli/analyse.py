@@ -46,7 +46,9 @@ def analyse(
         quantity_option('Output torque of all but the verdict, for ever, as in "40 N*m".'),
     ] = None,
     angles: Annotated[int, option("N", "Crank angles of the curves.", min=8, max=100_000)] = 360,
-    speed: Annotated[str | None, quantity_option('Input speed of all but the verdict, as in "1286 rpm".')] = None,
+    speed: Annotated[
+        str | None, quantity_option('Input speed of all but the verdict, as in "1286 rpm".')
+    ] = None,
     law: Annotated[
         ContactLaw, typer.Option("--contact-law", help="How line contacts yield to force.")
     ] = ContactLaw.palmgren,

@@ -11,8 +11,14 @@ import numpy as np
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.catalog.motors import COPPER_REFERENCE
 from cqdd_design.errors import ContactError, DesignError, GeometryError
-from cqdd_design.gearbox.checks.allowables import GREASE_MOST, HOUSING_MOST
-from cqdd_design.gearbox.checks.heat import Tightness, WarmPart, clearance_check, rise_check
+from cqdd_design.gearbox.checks.allowables import BINDING_OVERLAP, GREASE_MOST, HOUSING_MOST
+from cqdd_design.gearbox.checks.heat import (
+    Tightness,
+    WarmPart,
+    clearance_check,
+    clearance_remedy,
+    rise_check,
+)
 from cqdd_design.gearbox.heat.cycle import settled_cycle
 from cqdd_design.gearbox.heat.expansion import (
     AS_DRAWN,
@@ -24,6 +30,7 @@ from cqdd_design.gearbox.heat.expansion import (
 from cqdd_design.gearbox.heat.network import ThermalNetwork
 from cqdd_design.gearbox.precision.backlash import Backlash, backlash
 from cqdd_design.geometry.contours import FloatArray
+from cqdd_design.geometry.limits import rounded_up
 from cqdd_design.machine.cooling import cooled_network, two_nodes
 from cqdd_design.machine.duty_heat import DutyHeat, duty_cases, duty_heat, logged_heat
 from cqdd_design.machine.heat_nodes import NODES, Node, by_node
@@ -43,6 +50,8 @@ _LEAST_TIME, _SETTLED = 5.0, 6.0
 """First time of a history, s, and its last over the slowest time constant."""
 _SHOWN = 200
 """Times of a duty's cycle in JSON."""
+_TRIED = (1.5, 3.0, 6.0)
+"""Of what a clearance lacks at least, what is tried as a remedy."""
 _LOOKS, _FEW_LOOKS = 6, 3
 """States on the way from the coldest start at which clearances are looked at; with rigid bodies."""
 
@@ -298,6 +307,23 @@ def heat_checks(found: MachineTemperatures) -> tuple[Check, ...]:
     DesignError
         When the thermal expansion of a part is not known.
     """
+    heat, as_drawn = (
+        float(one.heat.at(found.steady).sum()) for one in (found.duty, found.as_drawn)
+    )
+    checks = (
+        rise_check(_parts(found), found.network.ambient, heat, as_drawn),
+        clearance_check(_added_overlaps(found), lambda: _remedy(found)),
+    )
+    if not found.cold:
+        return checks
+    # Parts get warmer than losses as drawn make them, or not: only what fails is known.
+    return tuple(
+        replace(one, value=None, substituted=found.cold) if one.satisfied else one for one in checks
+    )
+
+
+def _parts(found: MachineTemperatures) -> tuple[WarmPart, ...]:
+    """Those that have a limit, at the temperatures that are found."""
     at = by_node(found.steady)
     at["pin"] = at["carrier"]
     housing = find_material(found.machine.design.housing.material).service_limit
@@ -306,7 +332,7 @@ def heat_checks(found: MachineTemperatures) -> tuple[Check, ...]:
         part: find_material(name).service_limit
         for part, name in part_materials(found.machine.design).items()
     }
-    parts = (
+    return (
         WarmPart("winding", found.hottest("winding"), found.machine.motor.winding_most),
         WarmPart(f"grease at the {greased}", at[greased], GREASE_MOST),
         WarmPart("housing", at["housing"], HOUSING_MOST if housing is None else housing),
@@ -317,19 +343,46 @@ def heat_checks(found: MachineTemperatures) -> tuple[Check, ...]:
             if most is not None and most < GREASE_MOST
         ),
     )
-    heat, as_drawn = (
-        float(one.heat.at(found.steady).sum()) for one in (found.duty, found.as_drawn)
-    )
-    checks = (
-        rise_check(parts, found.network.ambient, heat, as_drawn),
-        clearance_check(_added_overlaps(found), lambda: found.lacking_clearance),
-    )
-    if not found.cold:
-        return checks
-    # Parts get warmer than losses as drawn make them, or not: only what fails is known.
-    return tuple(
-        replace(one, value=None, substituted=found.cold) if one.satisfied else one for one in checks
-    )
+
+
+def _remedy(found: MachineTemperatures) -> str:
+    """What frees warm parts, as tried on them."""
+    if found.machine.stiff:
+        # Of a look in a search nobody reads it.
+        return "give hole_clearance or modification.equidistant more, or cool the parts"
+    if any(one.temperature > one.most for one in _parts(found.undisturbed)):
+        return (
+            "cool the parts first (see THERMAL-RISE): they are too warm by what they lose as drawn, "
+            "and grow too far for a clearance to be told"
+        )
+    reducer, lacks = found.machine.design.reducer, found.lacking_clearance
+    holes = "reducer.output_pins.hole_clearance", reducer.output_pins.hole_clearance, 2.0 * lacks
+    more = _more(found, *holes)
+    if more is not None:
+        return clearance_remedy(f"give hole_clearance {rounded_up(1e6 * more):g} um more")
+    more = _more(found, "reducer.modification.equidistant", reducer.modification.equidistant, lacks)
+    if more is not None:
+        return clearance_remedy(f"give modification.equidistant {rounded_up(1e6 * more):g} um more")
+    return clearance_remedy("give both hole_clearance and modification.equidistant more")
+
+
+def _more(found: MachineTemperatures, key: str, now: float, lacks: float) -> float | None:
+    """By how much a clearance alone has to grow until parts settle free, m; None where it is not it.
+
+    Parameters
+    ----------
+    now, lacks : float
+        The clearance, and what it lacks at least, m.
+    """
+    for times in _TRIED:
+        more = times * max(lacks, 1e-6 * BINDING_OVERLAP)
+        try:
+            settled = machine_temperatures(found.machine.changed({key: now + more}))
+        except DesignError:
+            return None
+        if max(one.overlap for one in _added_overlaps(settled)) <= 1e-6 * BINDING_OVERLAP:
+            return more
+    return None
 
 
 def _added_overlaps(found: MachineTemperatures) -> tuple[Tightness, ...]:

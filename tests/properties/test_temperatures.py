@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -314,6 +315,37 @@ def test_parts_that_press_on_each_other_heat_themselves(machine: Machine) -> Non
     free = machine_temperatures(resolve(warm.given.replacing(wider)))
     assert free.steady.max() < 100.0
     assert [one.status for one in heat_checks(free)] == ["pass", "pass"]
+
+
+@pytest.mark.parametrize(
+    ("hole", "torque"),
+    [(10e-6, 1.0), pytest.param(16e-6, 8.0, marks=pytest.mark.deep)],
+)
+def test_the_clearance_that_is_advised_frees_warm_parts(
+    machine: Machine, hole: float, torque: float
+) -> None:
+    asked = {
+        "requirements.continuous_torque": torque,
+        "requirements.input_speed": 15.0,
+        "reducer.output_pins.hole_clearance": hole,
+    }
+    tight = machine.given.replacing(asked)
+    _, checks, _ = judged_temperatures(resolve(tight))
+    (line,) = (one for one in checks if one.id == "THERMAL-CLEARANCE")
+    assert line.status == "fail"
+    told = re.search(r"give hole_clearance ([\d.]+) um more", line.remedy)
+    assert told is not None
+    wider = {"reducer.output_pins.hole_clearance": hole + 1e-6 * float(told[1])}
+    _, checks, _ = judged_temperatures(resolve(tight.replacing(wider)))
+    assert [one.status for one in checks] == ["pass", "pass"]
+
+
+def test_parts_too_warm_as_drawn_are_cooled_first() -> None:
+    """Of cqdd-10, far beyond its limits, no clearance is advised that would not do."""
+    _, checks, _ = judged_temperatures(resolve(paper_design()))
+    (line,) = (one for one in checks if one.id == "THERMAL-CLEARANCE")
+    assert line.status == "fail"
+    assert "cool the parts first (see THERMAL-RISE)" in line.remedy
 
 
 def test_where_warm_parts_have_no_losses_nothing_passes(

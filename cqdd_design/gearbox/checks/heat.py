@@ -7,7 +7,6 @@ from typing import NamedTuple
 
 from cqdd_design.gearbox.checks.allowables import BINDING_OVERLAP
 from cqdd_design.gearbox.checks.state import build_check
-from cqdd_design.geometry.limits import rounded_up
 from cqdd_design.results import Check
 
 
@@ -55,25 +54,28 @@ def rise_check(parts: tuple[WarmPart, ...], ambient: float, heat: float, as_draw
     )
 
 
-def clearance_check(states: tuple[Tightness, ...], lacking: Callable[[], float]) -> Check:
+def clearance_check(states: tuple[Tightness, ...], remedy: Callable[[], str]) -> Check:
     """Check ``THERMAL-CLEARANCE`` over states of the parts.
 
     Parameters
     ----------
-    lacking : callable
-        Overlap of parts that lose no more for pressing on each other, m: what clearance lacks;
-        asked for where they overlap.
+    remedy : callable
+        What to do where they overlap; asked for then alone.
     """
     worst = max(states, key=lambda one: one.overlap)
     overlap = 1e6 * worst.overlap
-    lacks = 1e6 * lacking() if overlap > BINDING_OVERLAP else 0.0
-    more = max(lacks, BINDING_OVERLAP)
     return build_check(
         "THERMAL-CLEARANCE",
         overlap,
         BINDING_OVERLAP,
         f"{overlap:.2f} um more than as drawn: {worst.state}",
-        f"give hole_clearance {rounded_up(2.0 * more):g} um more, or modification.equidistant "
-        f"{rounded_up(more):g} um, make the carrier (housing.material) of what the discs are "
-        "made of, or cool the parts",
+        remedy() if overlap > BINDING_OVERLAP else "",
+    )
+
+
+def clearance_remedy(more: str) -> str:
+    """What frees warm parts: more clearance in words, and what makes it needless."""
+    return (
+        f"{more}, make the carrier (housing.material) of what the discs are made of, or cool the "
+        "parts"
     )
