@@ -352,8 +352,8 @@ def _remedy(found: MachineTemperatures) -> str:
         return "give hole_clearance or modification.equidistant more, or cool the parts"
     if any(one.temperature > one.most for one in _parts(found.undisturbed)):
         return (
-            "cool the parts first (see THERMAL-RISE): they are too warm by what they lose as drawn, "
-            "and grow too far for a clearance to be told"
+            "cool the parts first (see THERMAL-RISE): they are too warm by what they lose as "
+            "drawn, and grow too far for a clearance to be told"
         )
     reducer, lacks = found.machine.design.reducer, found.lacking_clearance
     holes = "reducer.output_pins.hole_clearance", reducer.output_pins.hole_clearance, 2.0 * lacks
@@ -367,7 +367,7 @@ def _remedy(found: MachineTemperatures) -> str:
 
 
 def _more(found: MachineTemperatures, key: str, now: float, lacks: float) -> float | None:
-    """By how much a clearance alone has to grow until parts settle free, m; None where it is not it.
+    """By how much a clearance alone has to grow until parts settle free, m; None where none does.
 
     Parameters
     ----------

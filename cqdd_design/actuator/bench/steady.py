@@ -163,7 +163,7 @@ def continuous_torque(parameters: ActuatorParameters) -> Metric:
         float(torques.mean()),
         "predicted",
         "Output held still at the current whose heat the two-node network carries off at the "
-        f"winding's limit of {thermal.most:g} degC in {thermal.ambient:g} degC.",
+        f"winding's limit of {thermal.most:g} degC in {thermal.ambient:g} degC, magnets as warm.",
         spread=float(torques.std(ddof=1)),
         details={"current_A": current},
         trace={
