@@ -230,7 +230,7 @@ def size_design(
     named, row = "motor" in requirements.model_fields_set, None
     if motor is not None:
         # Whoever gives a motor's data asks for that motor.
-        requirements = requirements.model_copy(update={"motor": requirements.motor})
+        requirements = requirements.unchecked_copy({"motor": requirements.motor})
         row = row_over(requirements.motor, motor, named=named)
     found = _sized(
         requirements,
