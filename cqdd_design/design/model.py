@@ -22,7 +22,7 @@ from cqdd_design.design.printing import Printing
 from cqdd_design.design.problems import describe_problems
 from cqdd_design.design.reducer import Reducer
 from cqdd_design.design.requirements import Requirements
-from cqdd_design.errors import DesignError, is_unprintable
+from cqdd_design.errors import DesignError, is_unprintable, shown
 from cqdd_design.files import refuse_extremes
 from cqdd_design.units import (
     CURRENT,
@@ -419,8 +419,12 @@ def _delete(mapping: dict[str, Any], key: str) -> None:
     mapping.pop(last, None)
 
 
-def _insert(mapping: dict[str, Any], key: str, value: Any) -> None:
+def _insert(mapping: dict[str, Any], key: object, value: Any) -> None:
+    if not isinstance(key, str):
+        raise DesignError(f'{shown(key)} is not a dotted key, such as "reducer.eccentricity".')
     *tables, last = key.split(".")
     for table in tables:
         mapping = mapping.setdefault(table, {})
+        if not isinstance(mapping, dict):
+            raise DesignError(f"{key} is not a key: {table} is no table.")
     mapping[last] = value

@@ -276,6 +276,17 @@ def test_a_copy_with_other_values_is_checked_like_a_file(table, update, told):
         (design if table is None else getattr(design, table)).model_copy(update=update)
 
 
+def test_replacing_refuses_what_is_no_key():
+    design = load_design(PAPER)
+    for key, told in (
+        (3, r'^3 is not a dotted key, such as "reducer\.eccentricity"\.$'),
+        ("name.first", r"^name\.first is not a key: name is no table\.$"),
+        ("reducer.eccentricty", "did you mean 'eccentricity'"),
+    ):
+        with pytest.raises(DesignError, match=told):
+            design.replacing({key: "2 mm"})
+
+
 def test_a_copy_with_other_values_is_the_design_that_replacing_gives():
     design = load_design(PAPER)
     thicker = design.reducer.model_copy(update={"disc_thickness": "9 mm"})
