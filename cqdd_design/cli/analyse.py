@@ -73,7 +73,7 @@ def analyse(
     from cqdd_design.units import SPEED, TEMPERATURE, TORQUE
     from cqdd_design.verdict.judge import sentence
 
-    asked_torque = parse_positive("--torque", torque, TORQUE)
+    asked_torque = parse_option("--torque", torque, TORQUE)
     parts_at = parse_option("--temperature", temperature, TEMPERATURE)
     asked_speed = parse_positive("--speed", speed, SPEED)
     loaded = under_duty(read_design(out, design, motor, motor_file), duty, duty_columns)

@@ -73,21 +73,20 @@ def compare(
     from cqdd_design.units import LENGTH
 
     counts = parse_whole_list("--teeth", teeth, 4, "12,36,22,70")
-    chosen = read_settings(
-        settings,
-        {
-            "material_quality": material_quality,
-            "accuracy_class": accuracy_class,
-            "application_factor": application_factor,
-            "mesh_load_table": mesh_load_table,
-            "lubricant_viscosity": lubricant_viscosity,
-            "life_hours": life_hours,
-            "peak_cycles": peak_cycles,
-            "least_contact_safety": least_contact_safety,
-            "least_bending_safety": least_bending_safety,
-            "shifts": shifts,
-        },
-    )
+    asked = {
+        "material_quality": material_quality,
+        "accuracy_class": accuracy_class,
+        "application_factor": application_factor,
+        "mesh_load_table": mesh_load_table,
+        "lubricant_viscosity": lubricant_viscosity,
+        "life_hours": life_hours,
+        "peak_cycles": peak_cycles,
+        "least_contact_safety": least_contact_safety,
+        "least_bending_safety": least_bending_safety,
+        "shifts": shifts,
+    }
+    given = {key: value for key, value in asked.items() if value is not None}
+    chosen = read_settings(settings, given)
     loaded = read_design(out, design, motor, motor_file)
     found = compared(
         loaded,

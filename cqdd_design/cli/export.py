@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -59,7 +60,8 @@ def export(
 ) -> int:
     """Files for makers (DXF, EDM, STEP, ...) and simulators."""
     from cqdd_design.exporting import ExportOptions
-    from cqdd_design.exporting.bill.prices import prices_asked_for
+    from cqdd_design.exporting.bill.prices import read_prices
+    from cqdd_design.exporting.options import DEFAULTS, refuse_unread
     from cqdd_design.roads.export import export as write
     from cqdd_design.roads.export import left_out
     from cqdd_design.units import LENGTH
@@ -72,9 +74,11 @@ def export(
         step_schema=step_schema.upper(),
         gcode_dialect=gcode_dialect.lower(),
         passes=passes,
-        prices=prices_asked_for(prices, kinds),
-        **({} if tab is None else {"tab_length": tab}),
+        tab_length=DEFAULTS.tab_length if tab is None else tab,
     )
+    refuse_unread(kinds, options, prices=prices, seed=seed, calibration=calibration)
+    if prices is not None:
+        options = replace(options, prices=read_prices(prices))
     if len(design) > 1:
         more = options.arguments()
         more += [] if seed is None else ["--seed", str(seed)]

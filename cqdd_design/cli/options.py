@@ -147,4 +147,4 @@ def parse_whole_list(name: str, text: str, count: int, example: str) -> tuple[in
 
 def parse_names(text: str | None) -> tuple[str, ...]:
     """Names separated by commas; none for None."""
-    return names(text or "")
+    return names("names", text or "", "mass")

@@ -66,7 +66,7 @@ class Environment(FrozenModel):
     def _coldest_first(self) -> Environment:
         if self.coldest > self.ambient:
             if "coldest" not in self.model_fields_set:
-                return self.model_copy(update={"coldest": self.ambient})
+                return self.unchecked_copy({"coldest": self.ambient})
             raise ValueError(
                 f"coldest {format_quantity(self.coldest, TEMPERATURE)} is above ambient "
                 f"{format_quantity(self.ambient, TEMPERATURE)}; lower it, or raise ambient"

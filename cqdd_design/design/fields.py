@@ -5,15 +5,22 @@ A bound carries its reason, because "must be greater than 4" helps nobody.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn, Self
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 
 from cqdd_design.catalog import find_bare_motor, find_bearing, find_finish, find_material
-from cqdd_design.errors import CatalogError, DesignError, is_unprintable, shown
+from cqdd_design.errors import (
+    CatalogError,
+    DesignError,
+    UsageError,
+    did_you_mean,
+    is_unprintable,
+    shown,
+)
+from cqdd_design.units.plain import real_number, whole_number
 
 if TYPE_CHECKING:
     from pydantic import GetCoreSchemaHandler
@@ -45,6 +52,69 @@ class FrozenModel(BaseModel):
     # Tables within tables are still pydantic's to build, with the context of the whole.
     __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]
 
+    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
+        """A copy, with other values where they are given: the whole is checked as a file is.
+
+        What is not given stays as it is, what follows from other keys among it.
+
+        Parameters
+        ----------
+        update : mapping, optional
+            By attribute; quantities as SI floats or with their unit.
+        deep : bool
+            Copy tables within as well.
+
+        Raises
+        ------
+        DesignError
+            One sentence a problem: key, value, range and nearest fix.
+        """
+        from cqdd_design.design.problems import describe_problems
+
+        if not update:
+            return super().model_copy(deep=deep)
+        fields = type(self).model_fields
+        values = {name: getattr(self, name) for name in fields} | dict(update)
+        aliases = {name: field.alias for name, field in fields.items() if field.alias}
+        table = {aliases.get(name, name): value for name, value in values.items()}
+        try:
+            checked = type(self).model_validate(table, context={"si": True})
+        except ValidationError as error:
+            raise describe_problems(error, type(self), type(self).__name__) from None
+        found = {name: getattr(checked, name) for name in update}
+        return super().model_copy(update=found, deep=deep)
+
+    def unchecked_copy(self, update: Mapping[str, Any]) -> Self:
+        """A copy with other SI values, taken as they are: for searches, which know their bounds.
+
+        Parameters
+        ----------
+        update : mapping
+            By attribute.
+        """
+        return super().model_copy(update=update)
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        """Refuse any key: a table never changes."""
+        if name.startswith("_"):
+            super().__setattr__(name, value)
+        else:
+            self._refuse_change(name)
+
+    def __delattr__(self, name: str) -> None:
+        """Refuse any key: a table never changes."""
+        self._refuse_change(name)
+
+    def _refuse_change(self, name: str) -> NoReturn:
+        kind, known = type(self).__name__, type(self).model_fields
+        if name not in known:
+            raise UsageError(f"{kind} has no key {name}{did_you_mean(name, known) or '.'}")
+        raise UsageError(
+            f"a design and its tables are frozen, and {name} of {kind} stays as it is; "
+            "Design.replacing gives a design with another value, as in "
+            'replacing({"reducer.eccentricity": "2 mm"}).'
+        )
+
 
 def default(text: str) -> Any:
     """A field default written as a unit string, validated like a given value."""
@@ -61,14 +131,13 @@ class Whole:
 
     def _validate(self, value: object) -> int:
         wanted = f"a whole number from {self.low} to {self.high} ({self.reason})"
-        if isinstance(value, bool) or not isinstance(value, (int, float)):
+        number = whole_number(value)
+        if number is None:
             raise ValueError(f"{shown(value)} is not {wanted}")
-        if not math.isfinite(value) or value != math.floor(value):
-            raise ValueError(f"{value} is not {wanted}")
-        if not self.low <= value <= self.high:
-            nearest = self.low if value < self.low else self.high
-            raise ValueError(f"{value:.12g} is not {wanted}; the nearest allowed is {nearest}")
-        return int(value)
+        if not self.low <= number <= self.high:
+            nearest = self.low if number < self.low else self.high
+            raise ValueError(f"{shown(number)} is not {wanted}; the nearest allowed is {nearest}")
+        return number
 
     def __get_pydantic_core_schema__(
         self, source: Any, handler: GetCoreSchemaHandler
@@ -91,12 +160,13 @@ class Share:
 
     def _validate(self, value: object) -> float:
         wanted = f"a number from {self.low:g} to {self.high:g} ({self.reason})"
-        if isinstance(value, bool) or not isinstance(value, (int, float)):
+        number = real_number(value)
+        if number is None:
             raise ValueError(f"{shown(value)} is not {wanted}")
-        if not self.low <= value <= self.high:
-            nearest = self.high if value > self.high else self.low
-            raise ValueError(f"{value:g} is not {wanted}; the nearest allowed is {nearest:g}")
-        return float(value)
+        if not self.low <= number <= self.high:
+            nearest = self.high if number > self.high else self.low
+            raise ValueError(f"{number:g} is not {wanted}; the nearest allowed is {nearest:g}")
+        return number
 
     def __get_pydantic_core_schema__(
         self, source: Any, handler: GetCoreSchemaHandler

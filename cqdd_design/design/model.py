@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import html
 import json
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict
@@ -21,7 +22,7 @@ from cqdd_design.design.printing import Printing
 from cqdd_design.design.problems import describe_problems
 from cqdd_design.design.reducer import Reducer
 from cqdd_design.design.requirements import Requirements
-from cqdd_design.errors import DesignError, is_unprintable
+from cqdd_design.errors import DesignError, is_unprintable, shown
 from cqdd_design.files import refuse_extremes
 from cqdd_design.units import (
     CURRENT,
@@ -82,15 +83,27 @@ class Design(FrozenModel):
 
     def __repr__(self) -> str:
         """Its name and what one would say of it first; `to_mapping` has the rest."""
+        ratio, ring, discs, motor = self._told
+        return f"Design {self.name}: ratio {ratio}, ring {ring}, {discs} of disc, {motor}"
+
+    __str__ = __repr__
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows of it: the same in a table."""
+        rows = zip(("Ratio", "Ring", "Discs", "Motor"), self._told, strict=True)
+        cells = "".join(
+            f"<tr><th>{head}</th><td>{html.escape(value)}</td></tr>" for head, value in rows
+        )
+        return f"<table><caption>{html.escape(self.name)}</caption>{cells}</table>"
+
+    @property
+    def _told(self) -> tuple[str, str, str, str]:
+        """Ratio, ring, discs and motor, as one would say them."""
         reducer = self.reducer
         lengths = (reducer.ring.outer_diameter, reducer.disc_thickness)
         ring, disc = (format_quantity(one, LENGTH) for one in lengths)
-        return (
-            f"Design {self.name}: ratio {reducer.ratio}, ring {ring}, "
-            f"{reducer.disc_count} x {disc} of disc, {self.motor.name}"
-        )
-
-    __str__ = __repr__
+        discs = f"{reducer.disc_count} x {disc}"
+        return str(reducer.ratio), ring, discs, self.motor.name
 
     @model_validator(mode="before")
     @classmethod
@@ -275,9 +288,17 @@ class Design(FrozenModel):
             return changed
         return changed.with_duty_log(asked.duty_log)
 
+    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Design:
+        """A copy, checked like a file; keys of the tables that it replaces count as given."""
+        changed = super().model_copy(update=update, deep=deep)
+        changed._assumed = tuple(
+            key for key in self._assumed if key.partition(".")[0] not in (update or {})
+        )
+        return changed
+
     def with_duty_log(self, log: DutyLog | None) -> Design:
         """The same design with what its duty's file says."""
-        changed = self.model_copy(update={"requirements": self.requirements.with_duty_log(log)})
+        changed = self.unchecked_copy({"requirements": self.requirements.with_duty_log(log)})
         changed._assumed, changed._motor_place = self._assumed, self._motor_place
         return changed
 
@@ -398,8 +419,12 @@ def _delete(mapping: dict[str, Any], key: str) -> None:
     mapping.pop(last, None)
 
 
-def _insert(mapping: dict[str, Any], key: str, value: Any) -> None:
+def _insert(mapping: dict[str, Any], key: object, value: Any) -> None:
+    if not isinstance(key, str):
+        raise DesignError(f'{shown(key)} is not a dotted key, such as "reducer.eccentricity".')
     *tables, last = key.split(".")
     for table in tables:
         mapping = mapping.setdefault(table, {})
+        if not isinstance(mapping, dict):
+            raise DesignError(f"{key} is not a key: {table} is no table.")
     mapping[last] = value

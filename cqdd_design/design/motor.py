@@ -259,7 +259,7 @@ class MotorData(FrozenModel):
                 f"name '{name}' is a motor of the catalogue and based_on '{self.based_on}' is "
                 "another; leave based_on out, or choose a name of your own"
             )
-        return self.model_copy(update={"name": name}) if name and name != self.name else self
+        return self.unchecked_copy({"name": name}) if name and name != self.name else self
 
     @property
     def base(self) -> str:
@@ -326,7 +326,7 @@ class MotorTable(MotorData):
         if "name" not in self.model_fields_set:
             if self.based_on is None and not self.stands_alone:
                 return self
-            return self.model_copy(update={"name": self.based_on or NAMELESS})
+            return self.unchecked_copy({"name": self.based_on or NAMELESS})
         if self.base:
             name = self.base
         elif self.stands_alone:

@@ -4,7 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated, Any, Self
 
-from pydantic import Field, ModelWrapValidatorHandler, PrivateAttr, model_validator
+from pydantic import (
+    Field,
+    ModelWrapValidatorHandler,
+    PrivateAttr,
+    ValidationInfo,
+    model_validator,
+)
 
 from cqdd_design.design.fields import (
     FreeText,
@@ -32,6 +38,9 @@ from cqdd_design.units import (
     VOLTAGE,
     QuantityIn,
     format_quantity,
+    read_quantity,
+    real_number,
+    whole_number,
 )
 
 if TYPE_CHECKING:
@@ -215,7 +224,9 @@ class Requirements(FrozenModel):
 
     @model_validator(mode="wrap")
     @classmethod
-    def _derive_torques(cls, data: Any, made: ModelWrapValidatorHandler[Self]) -> Self:
+    def _derive_torques(
+        cls, data: Any, made: ModelWrapValidatorHandler[Self], info: ValidationInfo
+    ) -> Self:
         """Fill in the torques that follow from the ratio when they are not given."""
         if not isinstance(data, dict):
             return made(data)
@@ -223,13 +234,16 @@ class Requirements(FrozenModel):
         ratio = filled.get("ratio")
         if (
             "peak_torque" not in filled
-            and isinstance(ratio, (int, float))
-            and LEAST_RATIO <= ratio <= MOST_RATIO
+            and (lobes := whole_number(ratio)) is not None
+            and LEAST_RATIO <= lobes <= MOST_RATIO
         ):
-            peak = min(DEFAULT_PEAK_PER_RATIO * ratio, DEFAULT_PEAK_MOST)
+            peak = min(DEFAULT_PEAK_PER_RATIO * lobes, DEFAULT_PEAK_MOST)
             filled["peak_torque"] = format_quantity(peak, TORQUE)
         if "peak_torque" in filled and "continuous_torque" not in filled:
-            filled["continuous_torque"] = _share_of(filled["peak_torque"], DEFAULT_CONTINUOUS_SHARE)
+            si = info.context is not None and bool(info.context.get("si"))
+            lasting = _share_of(filled["peak_torque"], DEFAULT_CONTINUOUS_SHARE, si=si)
+            if lasting is not None:
+                filled["continuous_torque"] = lasting
         whole = made(filled)
         whole._derived = frozenset(filled) - frozenset(data)
         return whole
@@ -333,13 +347,16 @@ class Requirements(FrozenModel):
         return self
 
 
-def _share_of(torque: Any, share: float) -> Any:
-    """A share of a torque, a quantity or an SI float; what cannot be read is passed on as is."""
-    from cqdd_design.units import read_quantity
+def _share_of(peak: Any, share: float, *, si: bool) -> str | float | None:
+    """A share of a peak torque, a quantity or an SI float, as that is written.
 
-    if isinstance(torque, (int, float)):
-        return share * torque
+    None where the peak torque will be refused: what follows from it would be refused as well.
+    """
+    bare = real_number(peak) if si else None
     try:
-        return format_quantity(share * read_quantity(torque, TORQUE), TORQUE)
+        whole = read_quantity(peak, TORQUE) if bare is None else bare
     except DesignError:
-        return torque
+        return None
+    if not LEAST_TORQUE / _ROUNDING <= whole <= MOST_TORQUE * _ROUNDING:
+        return None
+    return format_quantity(share * whole, TORQUE) if bare is None else share * bare

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from cqdd_design.errors import UsageError, did_you_mean
 
@@ -22,6 +22,30 @@ CHOICES: Mapping[str, tuple[str, ...]] = MappingProxyType(
     }
 )
 """What each option may be, the default among them."""
+
+
+class Read(NamedTuple):
+    """What an option of `export` does, and the kinds of file that read it."""
+
+    does: str
+    kinds: tuple[str, ...]
+
+
+_SIMULATORS = ("mjcf", "urdf", "card", "bam")
+READ_BY: Mapping[str, Read] = MappingProxyType(
+    {
+        "dxf_version": Read("chooses the dialect of DXF", ("dxf", "edm")),
+        "dxf_style": Read("chooses how DXF draws contours", ("dxf", "edm")),
+        "step_schema": Read("chooses the protocol of STEP", ("step", "print")),
+        "gcode_dialect": Read("chooses the dialect of G-code", ("gcode", "edm")),
+        "passes": Read("counts the cuts of a wire program", ("gcode", "edm")),
+        "tab_length": Read("is what a wire leaves uncut", ("dxf", "edm", "gcode", "sheets")),
+        "prices": Read("fills in the bill of materials", ("bom",)),
+        "seed": Read("draws the gearbox of a simulator", _SIMULATORS),
+        "calibration": Read("fits the actuator of a simulator", _SIMULATORS),
+    }
+)
+"""Who reads which option; what no kind of file reads that is asked for is refused."""
 
 MOST_PASSES = 4
 LEAST_TAB, MOST_TAB = 0.1e-3, 50e-3
@@ -104,3 +128,31 @@ class ExportOptions:
 
 DEFAULTS = ExportOptions()
 """What files look like when nobody asks for anything else."""
+
+
+def refuse_unread(kinds: Collection[str], options: ExportOptions, **others: object) -> None:
+    """Refuse an option that is not at its default and that no kind of file reads.
+
+    Parameters
+    ----------
+    kinds : collection of str
+        That are asked for.
+    options : ExportOptions
+        How they are written.
+    **others
+        Options of `READ_BY` as given, that are none of `options` or not read yet; None where
+        they are left out.
+
+    Raises
+    ------
+    UsageError
+        Naming the option, and the kinds that read it.
+    """
+    for name, read in READ_BY.items():
+        value = others.get(name, getattr(options, name, None))
+        usual = getattr(DEFAULTS, name, None)
+        if value != usual and not set(read.kinds) & set(kinds):
+            raise UsageError(
+                f"--{name.replace('_', '-')} {read.does}; ask for it with --to "
+                f"{' or '.join(read.kinds)}, or leave the option out."
+            )

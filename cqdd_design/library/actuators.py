@@ -136,7 +136,7 @@ def bench(
     rig_stiffness: Quantity | None = None,
     seed: int | None = None,
     calibration: CalibrationLike | None = None,
-    beside: Sequence[str] = (),
+    beside: str | Sequence[str] = (),
     out: PathLike | None = None,
     force: bool = False,
     progress: Callable[[str], None] | None = None,
@@ -200,10 +200,10 @@ def bench(
     found = data_sheet(
         loaded,
         specimen,
-        only=names(only),
+        only=names("only", only, "mass"),
         voltage=si_value("voltage", voltage, VOLTAGE, positive=True),
         rig_stiffness=si_value("rig_stiffness", rig_stiffness, STIFFNESS_GAIN, positive=True),
-        beside=tuple(beside),
+        beside=names("beside", beside, "CubeMars AK10-9 V2 KV60"),
         progress=progress or silent,
     )
     files = () if out is None else write_traces(found.result, path_of("out", out), force=force)
@@ -213,7 +213,7 @@ def bench(
 @road
 def calibrate(
     design: DesignLike,
-    measured: Mapping[str, float] | PathLike | None = None,
+    measured: Mapping[str, float | Quantity] | PathLike | None = None,
     *,
     to: str | Sequence[str] = (),
     unknowns: str | Sequence[str] = (),
@@ -231,8 +231,8 @@ def calibrate(
     design : Design or path
         A path is that of a design file; a bare name may be an example's.
     measured : mapping or path, optional
-        Values by measurement in the bench's units, or a CSV with the columns ``name,value,unit``;
-        default the paper's table, for its own actuator.
+        Values by measurement, quantities or numbers in the bench's units, or a CSV with the
+        columns ``name,value,unit``; default the paper's table, for its own actuator.
     to : sequence of str
         Measured rows to fit to; the others are predicted. Default those that decide the unknowns.
     unknowns : sequence of str
@@ -270,7 +270,7 @@ def calibrate(
     ['thermal_resistance']
     """
     from cqdd_design.actuator.bench.calibration_file import write_calibration
-    from cqdd_design.actuator.bench.measured import read_measured
+    from cqdd_design.actuator.bench.measured import in_bench_units, read_measured
     from cqdd_design.files import refuse_overwrite
     from cqdd_design.roads.calibrate import calibrate as fit
     from cqdd_design.roads.telling import silent
@@ -278,7 +278,7 @@ def calibrate(
 
     rows: Mapping[str, float] | None = None
     if isinstance(measured, Mapping):
-        rows = measured
+        rows = {str(name): in_bench_units(str(name), one) for name, one in measured.items()}
     elif measured is not None:
         rows = read_measured(path_of("measured", measured))
     target = None if out is None else path_of("out", out)
@@ -290,8 +290,8 @@ def calibrate(
         loaded,
         rows,
         specimen,
-        to=names(to),
-        unknowns=names(unknowns),
+        to=names("to", to, "continuous_torque"),
+        unknowns=names("unknowns", unknowns, "thermal_resistance"),
         voltage=si_value("voltage", voltage, VOLTAGE, positive=True),
         rig_stiffness=si_value("rig_stiffness", rig_stiffness, STIFFNESS_GAIN, positive=True),
         progress=progress or silent,
@@ -305,7 +305,7 @@ def specimen_given(
 ) -> tuple[Specimen, tuple[str, ...]]:
     """The actuator that is meant, and a warning where a calibration is of another design."""
     if seed is not None:
-        whole("seed", seed, 0, 2**64 - 1)
+        seed = whole("seed", seed, 0, 2**64 - 1)
     if isinstance(calibration, Calibrated):
         found, _ = specimen_of(design, seed=seed)
         fitted = replace(found, factors=calibration.found.factors)

@@ -6,10 +6,10 @@ import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, cast, get_args
 
-from cqdd_design.errors import UsageError
-from cqdd_design.library.calls import of_arguments, road, si_value
+from cqdd_design.errors import UsageError, shown
+from cqdd_design.library.calls import of_arguments, one_of, road, si_value, text
 from cqdd_design.library.inputs import (
     DesignLike,
     PathLike,
@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from cqdd_design.verdict.judge import Meets
 
 Goal = Literal["mass", "inertia", "backlash", "efficiency", "size"]
+_MOTOR = "CubeMars RO100 KV55"
 
 
 @road
@@ -91,6 +92,10 @@ def load(
     0.009
     """
     file = None if motor_file is None else path_of("motor_file", motor_file)
+    if motor is not None:
+        text("motor", motor, _MOTOR)
+    if duty_columns is not None:
+        text("duty_columns", duty_columns, "time=t [ms],torque=tau [N*m]")
     found, told = read_design(design, motor, file)
     for sentence in told:
         # The caller's line, behind the wrapper of errors.
@@ -158,7 +163,7 @@ class Sized(Result):
 def size(
     ratio: int | None = None,
     *,
-    requirements: Requirements | PathLike | None = None,
+    requirements: Requirements | Mapping[str, Any] | PathLike | None = None,
     motor: str | None = None,
     motor_file: PathLike | None = None,
     ambient: Quantity | None = None,
@@ -176,7 +181,7 @@ def size(
     ----------
     ratio : int
         Reduction, 4 to 119: the lobes of a disc. It may stand in `requirements` instead.
-    requirements : Requirements or path, optional
+    requirements : Requirements, mapping or path, optional
         A file with a table ``[requirements]``, or the values; named arguments replace its keys. Of
         a file its motor is read too; a warning names tables that are not.
     motor : str, optional
@@ -225,33 +230,44 @@ def size(
     >>> found.design.name, found.design.reducer.ratio, found.meets
     ('sized-10', 10, None)
     """
+    from cqdd_design.design import Requirements as AskedFor
     from cqdd_design.roads.size import default_path, size_and_write, size_design
     from cqdd_design.roads.telling import silent
     from cqdd_design.units import TEMPERATURE
 
-    keys = {("yield" if key == "yield_share" else key): value for key, value in asked.items()}
+    goal = cast("Goal", one_of("objective", objective, get_args(Goal)))
+    if pick is not None:
+        one_of("pick", pick, ("b", "c", "d"))
+    if motor is not None:
+        text("motor", motor, _MOTOR)
+    keys: dict[str, Any] = dict(asked) | ({} if ratio is None else {"ratio": ratio})
     source: Requirements | Path | None = None
     if isinstance(requirements, str) or hasattr(requirements, "__fspath__"):
         source = path_of("requirements", requirements)
         if left := not_taken_over(source):
             warnings.warn(of_arguments(left), stacklevel=3)
-    elif requirements is not None:
+    elif isinstance(requirements, Mapping):
+        keys = dict(requirements) | keys
+    elif isinstance(requirements, AskedFor) or requirements is None:
         source = requirements
+    else:
+        raise UsageError(
+            f"requirements {shown(requirements)} are none: give Requirements, a mapping of their "
+            'keys, such as {"ratio": 10}, or the path of a file.'
+        )
     wanted = read_wanted(
-        keys | ({} if ratio is None else {"ratio": ratio}),
+        {("yield" if key == "yield_share" else key): value for key, value in keys.items()},
         source,
         motor=motor,
         motor_file=None if motor_file is None else path_of("motor_file", motor_file),
     )
-    if pick not in (None, "b", "c", "d"):
-        raise UsageError(f"pick {pick!r} is none of b, c, d.")
     options: dict[str, Any] = {
         "motor": wanted.motor,
         "any_motor": wanted.any_motor,
         "pick": pick or "",
         "ambient": si_value("ambient", ambient, TEMPERATURE),
         "quick": quick,
-        "goal": objective,
+        "goal": goal,
         "progress": progress or silent,
     }
     if out is None:

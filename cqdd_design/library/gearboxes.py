@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from cqdd_design.errors import UsageError
-from cqdd_design.library.calls import road, si_value, whole
+from cqdd_design.library.calls import road, si_value, text, whole
 from cqdd_design.library.inputs import DesignLike, PathLike, design_of, path_of
 from cqdd_design.library.results import Result, Row
 
@@ -132,7 +132,7 @@ def tolerance(
         angles=None if angles is None else whole("angles", angles, 8),
         seed=whole("seed", seed, 0, 2**64 - 1),
         temperature=si_value("temperature", temperature, TEMPERATURE),
-        scheduler=scheduler,
+        scheduler=None if scheduler is None else text("scheduler", scheduler, "tcp://HOST:8786"),
         progress=progress,
     )
     return Toleranced(loaded, found.warnings, found)
@@ -188,7 +188,7 @@ class Compared(Result):
 def compare(
     design: DesignLike,
     *,
-    teeth: Sequence[int] = (12, 36, 22, 70),
+    teeth: str | Sequence[int] = (12, 36, 22, 70),
     module: Quantity = "1 mm",
     face_width: Quantity = "12 mm",
     material: str | None = None,
@@ -202,7 +202,7 @@ def compare(
     design : Design or path
         A path is that of a design file; a bare name may be an example's.
     teeth : sequence of four int
-        Of sun, planet at the sun, planet at the ring, ring.
+        Of sun, planet at the sun, planet at the ring, ring; or a text with commas between them.
     module, face_width : quantity
         Of both meshes, above zero.
     material : str, optional
@@ -238,14 +238,15 @@ def compare(
     >>> beside.found.planets_that_fit
     3
     """
+    from cqdd_design.planetary.assembly import MOST_PLANETS
     from cqdd_design.planetary.kinematics import PlanetaryTeeth
     from cqdd_design.planetary.settings import read_settings
     from cqdd_design.roads.compare import compare as rate
     from cqdd_design.units import LENGTH
 
-    if len(teeth) != 4:
-        raise UsageError(f"teeth {tuple(teeth)} must be four numbers, such as (12, 36, 22, 70).")
-    counts = (whole("teeth", count, 1) for count in teeth)
+    counts = _four_counts(teeth)
+    if material is not None:
+        text("material", material, "AISI 4140 Q&T 540C")
     stated = isinstance(settings, Mapping)
     file = None if settings is None or stated else path_of("settings", settings)
     loaded = design_of(design)
@@ -255,10 +256,24 @@ def compare(
         module=si_value("module", module, LENGTH, positive=True),
         face_width=si_value("face_width", face_width, LENGTH, positive=True),
         material=material,
-        planets=planets,
+        planets=None if planets is None else whole("planets", planets, 1, MOST_PLANETS),
         settings=read_settings(file, settings if isinstance(settings, Mapping) else None),
     )
     return Compared(loaded, found.warnings, found)
+
+
+def _four_counts(teeth: object) -> tuple[int, ...]:
+    """Teeth of sun, planet at the sun, planet at the ring, ring; in a text between commas."""
+    told = UsageError(f"teeth {teeth} must be four numbers, such as (12, 36, 22, 70).")
+    parts = teeth.split(",") if isinstance(teeth, str) else teeth
+    if not isinstance(parts, Iterable):
+        raise told
+    found = [
+        int(part) if isinstance(part, str) and part.strip().isdecimal() else part for part in parts
+    ]
+    if len(found) != 4:
+        raise told
+    return tuple(whole("teeth", count, 1) for count in found)
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -32,7 +32,12 @@ def design_of(given: DesignLike) -> Design:
 
     if isinstance(given, Design):
         return given
-    path = path_of("design", given)
+    if not isinstance(given, (str, os.PathLike)):
+        raise UsageError(
+            f"design must be a Design or the path of its file, not a {type(given).__name__}; "
+            "Design.from_mapping makes a design of nested tables."
+        )
+    path = Path(os.fspath(given))
     if isinstance(given, os.PathLike) or path.suffix or path.parent != Path() or path.exists():
         return load_design(path)
     from cqdd_design.design.templates import example_text, examples

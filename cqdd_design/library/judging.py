@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, cast, get_args
 
-from cqdd_design.library.calls import road, si_value, whole
+from cqdd_design.library.calls import one_of, road, si_value, whole
 from cqdd_design.library.inputs import DesignLike, design_of, source_of
 from cqdd_design.library.results import Result, Row, check_rows
 
@@ -18,6 +18,10 @@ if TYPE_CHECKING:
     from cqdd_design.units import Quantity
     from cqdd_design.verdict import Verdict
     from cqdd_design.verdict.judge import Meets
+
+
+ContactLaw = Literal["palmgren", "johnson", "linear"]
+Friction = Literal["drive", "backdrive", "off"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -108,12 +112,12 @@ def check(
     from cqdd_design.roads.check import check as judge
     from cqdd_design.roads.telling import silent
 
-    whole("angles", angles, 1, 100_000)
+    count = whole("angles", angles, 1, 100_000)
     loaded = design_of(design)
     found = judge(
         loaded,
         source=source_of(design),
-        assembly_angles=angles if assembly else None,
+        assembly_angles=count if assembly else None,
         told=progress or silent,
     )
     return Checked(loaded, found.verdict.warnings, found)
@@ -186,8 +190,8 @@ def analyse(
     torque: Quantity | None = None,
     angles: int = 360,
     speed: Quantity | None = None,
-    contact_law: Literal["palmgren", "johnson", "linear"] = "palmgren",
-    friction: Literal["drive", "backdrive", "off"] = "drive",
+    contact_law: ContactLaw = "palmgren",
+    friction: Friction = "drive",
     temperature: Quantity | None = None,
 ) -> Analysed:
     """Loads, contact equilibrium, precision, losses, life, stress, temperatures and shock.
@@ -219,7 +223,7 @@ def analyse(
     Raises
     ------
     UsageError
-        A quantity without its unit, of another kind or out of range.
+        A quantity without its unit, of another kind or out of range; no such law or friction.
     DesignError, GeometryError
         No valid design, or a shape that cannot exist.
 
@@ -238,13 +242,15 @@ def analyse(
     from cqdd_design.roads.analyse import analyse as solve
     from cqdd_design.units import SPEED, TEMPERATURE, TORQUE
 
+    law = cast("ContactLaw", one_of("contact_law", contact_law, get_args(ContactLaw)))
+    rubbing = cast("Friction", one_of("friction", friction, get_args(Friction)))
     found = solve(
         design_of(design),
-        torque=si_value("torque", torque, TORQUE, positive=True),
+        torque=si_value("torque", torque, TORQUE),
         speed=si_value("speed", speed, SPEED, positive=True),
         angles=whole("angles", angles, 8, 100_000),
-        line_model=contact_law,
-        friction=friction,
+        line_model=law,
+        friction=rubbing,
         temperature=si_value("temperature", temperature, TEMPERATURE),
     )
     return Analysed(found.machine.given, found.warnings, found)

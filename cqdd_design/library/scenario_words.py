@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, NamedTuple, cast
 
-from cqdd_design.errors import UsageError, did_you_mean
-from cqdd_design.library.calls import si_value
+from cqdd_design.errors import UsageError
+from cqdd_design.library.calls import one_of, si_value
 
 if TYPE_CHECKING:
     from cqdd_design.actuator.scenario import (
@@ -79,15 +79,6 @@ _COMMANDED = {
 }
 
 
-def known(option: str, name: str, names: Sequence[str]) -> str:
-    """The name, where it is one of those that the option knows."""
-    if name not in names:
-        raise UsageError(
-            f"{option} '{name}' is none of {', '.join(names)}{did_you_mean(name, names)}."
-        )
-    return name
-
-
 def _dimension(name: str) -> Dimension:
     from cqdd_design import units
 
@@ -127,20 +118,40 @@ class Choices:
         """
         from cqdd_design.actuator.scenario import Scenario, Start
 
-        self.resolved["--friction"] = known("--friction", friction, FRICTION)
+        self.resolved["--friction"] = one_of("--friction", friction, FRICTION)
         carried, start = self.load(load)
         supply = self.quantity("--voltage", "VOLTAGE", None, example="24 V")
         told, seconds = self.command(command, signal, design, supply)
         model = cast("FrictionModel", friction)
+        rate = self.quantity("--rate", "FREQUENCY", "1 kHz") or 0.0
+        self._tell_too_fast(command, design, rate)
         return Run(
             Scenario(told, carried, Start(output_angle=start), model),
             duration=seconds,
-            rate=self.quantity("--rate", "FREQUENCY", "1 kHz") or 0.0,
+            rate=rate,
             step=self.quantity("--step", "TIME", None, example="20 us"),
             voltage=supply,
             options=self.resolved,
             warnings=tuple(self.warnings),
         )
+
+    def _tell_too_fast(self, command: str, design: Design, rate: float) -> None:
+        """Warn of a command that swings faster than what samples it can follow or show."""
+        from cqdd_design.units import BANDWIDTH, FREQUENCY, format_quantity, parse_quantity
+
+        samplers = [("the rate of the record", rate, "raise --rate, or lower it")]
+        if command in _ON_ANGLES:
+            loop = "the drive's control_rate"
+            samplers.append((loop, design.drive.control_rate, "lower it: no drive follows that"))
+        for option in _BY_SIGNAL:
+            text = self.resolved.get(option)
+            fastest = 0.0 if text is None else parse_quantity(text, FREQUENCY)
+            for name, sampled, remedy in samplers:
+                if fastest > 0.5 * sampled:
+                    self.warnings.append(
+                        f"{option} {text} is above half of {name}, "
+                        f"{format_quantity(sampled, BANDWIDTH)}; {remedy}."
+                    )
 
     def quantity(
         self,
@@ -189,7 +200,7 @@ class Choices:
         """The load, and the output's angle at the start, rad."""
         from cqdd_design.actuator.scenario import Constant, Load, Wall
 
-        self.resolved["--load"] = known("--load", name, LOADS)
+        self.resolved["--load"] = one_of("--load", name, LOADS)
         found = {
             option: 0.0 if value is None else value
             for option, value in self.ruled(_BY_LOAD, "--load", name).items()
@@ -230,7 +241,7 @@ class Choices:
         from cqdd_design.actuator.scenario import Command
         from cqdd_design.units import DAMPING_GAIN, STIFFNESS_GAIN, format_quantity
 
-        self.resolved["--command"] = known("--command", name, COMMANDS)
+        self.resolved["--command"] = one_of("--command", name, COMMANDS)
         gains = self.ruled(_BY_COMMAND, "--command", name)
         if name in _ON_ANGLES:
             used = (design.drive.position_gain, design.drive.velocity_gain)
@@ -269,7 +280,7 @@ class Choices:
         from cqdd_design.actuator.reference import read_reference
         from cqdd_design.actuator.scenario import Chirp, Constant, Ramp, Sine
 
-        self.resolved["--signal"] = known("--signal", name, SIGNALS)
+        self.resolved["--signal"] = one_of("--signal", name, SIGNALS)
         found = self.ruled(_BY_SIGNAL, "--signal", name)
         dimension = _COMMANDED[command]
         path = self.given.get("--reference")

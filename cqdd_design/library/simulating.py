@@ -6,10 +6,10 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
-from cqdd_design.errors import UsageError
+from cqdd_design.errors import UsageError, did_you_mean
 from cqdd_design.library.actuators import CalibrationLike, specimen_given
 from cqdd_design.library.asked import AskedOfScenario
-from cqdd_design.library.calls import road, whole
+from cqdd_design.library.calls import of_arguments, road, whole
 from cqdd_design.library.inputs import DesignLike, PathLike, design_of, path_of
 from cqdd_design.library.results import Result, frame
 
@@ -157,8 +157,10 @@ def simulate(
 
     unknown = set(asked) - set(AskedOfScenario.__annotations__)
     if unknown:
+        name = min(unknown)
+        hint = did_you_mean(name, AskedOfScenario.__annotations__) or "."
         raise UsageError(
-            f"simulate has no argument {', '.join(sorted(unknown))}; besides its own it takes "
+            f"simulate has no argument {name}{hint} Besides its own it takes "
             f"{', '.join(AskedOfScenario.__annotations__)}."
         )
     given: dict[str, Any] = {
@@ -192,4 +194,5 @@ def simulate(
         progress=progress,
     )
     files = () if target is None else (write_simulation(found, target, force=force),)
-    return Simulated(loaded, (*wanted.warnings, *told, *found.warnings), found, files=files)
+    warnings = (*map(of_arguments, wanted.warnings), *told, *found.warnings)
+    return Simulated(loaded, warnings, found, files=files)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from cqdd_design.library.actuators import CalibrationLike, specimen_given
-from cqdd_design.library.calls import road, si_value
+from cqdd_design.library.calls import names, road, si_value, text, whole
 from cqdd_design.library.inputs import DesignLike, PathLike, design_of, path_of, source_of
 from cqdd_design.library.results import Result, Row, check_rows
 
@@ -109,7 +109,8 @@ def export(
     Raises
     ------
     UsageError
-        No such kind or dialect; a file exists; the folder cannot be written.
+        No such kind or dialect; an option that no kind asked for reads; a file exists; the folder
+        cannot be written.
     DesignError, GeometryError
         No valid design, or no such part of it.
     ReadBackError
@@ -131,24 +132,27 @@ def export(
     {'dxf'}
     """
     from cqdd_design.exporting import ExportOptions
-    from cqdd_design.exporting.bill.prices import prices_asked_for
+    from cqdd_design.exporting.bill.prices import read_prices
     from cqdd_design.exporting.kinds import read_kinds
+    from cqdd_design.exporting.options import DEFAULTS, MOST_PASSES, refuse_unread
     from cqdd_design.roads.export import export as write
     from cqdd_design.roads.export import left_out
     from cqdd_design.roads.telling import silent
     from cqdd_design.units import LENGTH
 
-    kinds = read_kinds(to)
+    kinds = read_kinds(names("to", to, "dxf"))
     tab = si_value("tab_length", tab_length, LENGTH, positive=True)
     options = ExportOptions(
-        dxf_version=dxf_version.upper(),
-        dxf_style=dxf_style.lower(),
-        step_schema=step_schema.upper(),
-        gcode_dialect=gcode_dialect.lower(),
-        passes=passes,
-        prices=prices_asked_for(None if prices is None else path_of("prices", prices), kinds),
-        **({} if tab is None else {"tab_length": tab}),
+        dxf_version=text("dxf_version", dxf_version, "R2000").upper(),
+        dxf_style=text("dxf_style", dxf_style, "polyline").lower(),
+        step_schema=text("step_schema", step_schema, "AP214").upper(),
+        gcode_dialect=text("gcode_dialect", gcode_dialect, "iso").lower(),
+        passes=whole("passes", passes, 1, MOST_PASSES),
+        tab_length=DEFAULTS.tab_length if tab is None else tab,
     )
+    refuse_unread(kinds, options, prices=prices, seed=seed, calibration=calibration)
+    if prices is not None:
+        options = replace(options, prices=read_prices(path_of("prices", prices)))
     loaded = design_of(design)
     specimen, told = specimen_given(loaded, seed, calibration)
     files = write(
@@ -266,7 +270,7 @@ def report(
         None if out is None else path_of("out", out),
         specimen=specimen,
         source=source_of(design),
-        form=report_form(format),
+        form=report_form(text("format", format, "html")),
         force=force,
         progress=progress or silent,
     )

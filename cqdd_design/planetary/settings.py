@@ -13,7 +13,15 @@ from cqdd_design.files import parse_toml, read_text_file
 from cqdd_design.planetary.gear_material import QUALITIES, Quality
 from cqdd_design.planetary.iso6336.influence import MESH_LOAD_TABLES
 from cqdd_design.planetary.profile_shift import ProfileShifts
-from cqdd_design.units import LENGTH, SMALL_LENGTH, VISCOSITY, Dimension, parse_quantity
+from cqdd_design.units import (
+    LENGTH,
+    SMALL_LENGTH,
+    VISCOSITY,
+    Dimension,
+    read_quantity,
+    real_number,
+    whole_number,
+)
 
 _LARGEST_FILE = 100_000
 
@@ -173,19 +181,15 @@ class Setting(NamedTuple):
     def read(self, name: str, value: Any) -> Any:
         """The value of a file or option, SI; a `UsageError` says how it is written."""
         if self.dimension is not None:
-            if not isinstance(value, str):
-                raise UsageError(f"{name} = {shown(value)} is written {self.dimension.example()}.")
             try:
-                return parse_quantity(value, self.dimension)
+                return read_quantity(value, self.dimension)
             except DesignError as error:
                 raise UsageError(f"{name}: {error.message.rstrip('.')}.") from None
         if self.kind is ProfileShifts:
             return _shifts(name, value)
-        number = isinstance(value, (int, float)) and not isinstance(value, bool)
-        if self.kind is float and number:
-            return float(value)
-        if self.kind is int and number and float(value).is_integer():
-            return int(value)
+        number = whole_number(value) if self.kind is int else real_number(value)
+        if self.kind in (float, int) and number is not None:
+            return number
         if isinstance(value, str) and self.choices and value not in self.choices:
             hint = did_you_mean(value, self.choices) or "."
             raise UsageError(f"{name} = {shown(value)} is none of {', '.join(self.choices)}{hint}")
@@ -238,6 +242,14 @@ def _shifts(name: str, value: Any) -> ProfileShifts:
     return ProfileShifts(*numbers)
 
 
+def _setting(key: str, place: str) -> Setting:
+    """How the setting of a key is written; an unknown key is refused with the nearest."""
+    if key not in SETTINGS:
+        hint = did_you_mean(str(key), SETTINGS) or f"; its keys are {', '.join(SETTINGS)}."
+        raise UsageError(f"{place}: {shown(key)} is no setting{hint}")
+    return SETTINGS[key]
+
+
 def read_settings(path: Path | None, changes: Mapping[str, Any] | None = None) -> RatingSettings:
     """The settings of a TOML file, with changes on top.
 
@@ -246,7 +258,7 @@ def read_settings(path: Path | None, changes: Mapping[str, Any] | None = None) -
     path : Path or None
         Keys are those of :data:`SETTINGS`, quantities with their unit; None for the defaults.
     changes : mapping, optional
-        Written like the file's; None stands for what is not given.
+        Written like the file's.
 
     Raises
     ------
@@ -257,11 +269,7 @@ def read_settings(path: Path | None, changes: Mapping[str, Any] | None = None) -
     if path is not None:
         content = parse_toml(read_text_file(path, _LARGEST_FILE, wrong=UsageError), path)
         for key, value in content.items():
-            if key not in SETTINGS:
-                hint = did_you_mean(key, SETTINGS) or f"; its keys are {', '.join(SETTINGS)}."
-                raise UsageError(f"{path}: {shown(key)} is no setting{hint}")
-            found[key] = SETTINGS[key].read(f"{path}: {key}", value)
+            found[key] = _setting(key, f"{path}").read(f"{path}: {key}", value)
     for key, value in (changes or {}).items():
-        if value is not None:
-            found[key] = SETTINGS[key].read("--" + key.replace("_", "-"), value)
+        found[key] = _setting(key, "settings").read("--" + key.replace("_", "-"), value)
     return dataclasses.replace(RatingSettings(), **found)

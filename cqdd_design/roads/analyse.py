@@ -192,8 +192,10 @@ def analyse(
         For a torque or temperature outside the range that is worked with.
     """
     if torque is not None and not LEAST_TORQUE <= torque <= MOST_TORQUE:
+        nearest = LEAST_TORQUE if torque < LEAST_TORQUE else MOST_TORQUE
         raise UsageError(
-            f"--torque: {torque:.10g} N*m is outside {LEAST_TORQUE:g} to {MOST_TORQUE:g} N*m."
+            f"--torque: {torque:.10g} N*m is outside {LEAST_TORQUE:g} to {MOST_TORQUE:g} N*m; the "
+            f"nearest is {nearest:g} N*m."
         )
     drawn = loaded = resolve(design)
     if speed is not None:

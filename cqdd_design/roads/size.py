@@ -7,6 +7,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from pydantic import ValidationError
+
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design, Requirements
 from cqdd_design.design.actuator import Environment
@@ -224,13 +226,13 @@ def size_design(
             f"any motor of the catalogue is asked for, and {motor.place} describes one; keep one "
             "of them."
         )
-    air = Environment().ambient if ambient is None else ambient
+    air = _air(ambient)
     if cold := too_cold_a_surface(requirements, air):
         raise UsageError(f"{cold}.")
     named, row = "motor" in requirements.model_fields_set, None
     if motor is not None:
         # Whoever gives a motor's data asks for that motor.
-        requirements = requirements.model_copy(update={"motor": requirements.motor})
+        requirements = requirements.unchecked_copy({"motor": requirements.motor})
         row = row_over(requirements.motor, motor, named=named)
     found = _sized(
         requirements,
@@ -251,6 +253,16 @@ def size_design(
         design = design if named else design.leaving("requirements.motor")
     verdict = found.verdict and replace(found.verdict, name=place.stem)
     return Road(sizing, design, (), verdict, found.derived, found.choice)
+
+
+def _air(ambient: float | None) -> float:
+    """Temperature of the air round the actuator, deg C, in the range that designs have."""
+    if ambient is None:
+        return Environment().ambient
+    try:
+        return Environment.model_validate({"ambient": ambient}, context={"si": True}).ambient
+    except ValidationError as error:
+        raise UsageError(f"--ambient: {error.errors()[0]['ctx']['error']}.") from None
 
 
 def _sized(

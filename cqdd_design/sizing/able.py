@@ -129,4 +129,4 @@ def cooler(requirements: Requirements) -> Requirements | None:
 
 def _with(requirements: Requirements, changed: Mapping[str, Any]) -> Requirements:
     changes = dict(changed)
-    return requirements.model_copy(update=changes) if changes else requirements
+    return requirements.unchecked_copy(changes) if changes else requirements

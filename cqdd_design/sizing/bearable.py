@@ -108,7 +108,7 @@ def weaker(requirements: Requirements, peak: float, lasting: float) -> Requireme
     if CONTINUOUS in requirements.derived:
         least = min(rounded_down(lasting * least, _DIGITS) if lasting < 1.0 else least, most)
         least = max(least, LEAST_LASTING)
-    return requirements.model_copy(update={PEAK: most, CONTINUOUS: least})
+    return requirements.unchecked_copy({PEAK: most, CONTINUOUS: least})
 
 
 class Borne(NamedTuple):
@@ -173,7 +173,7 @@ def both_bearable(hunt: Hunt) -> float:
 def times(requirements: Requirements, share: float) -> Requirements:
     """The requirements with a share of both torques, stated or not."""
     changed = {key: share * getattr(requirements, key) for key in (PEAK, CONTINUOUS)}
-    return requirements.model_copy(update=changed)
+    return requirements.unchecked_copy(changed)
 
 
 def _strongest(hunt: Hunt, near: Found | None) -> Borne | None:

@@ -60,7 +60,7 @@ def _more_mass(
 
 
 def _mass(hunt: Hunt, found: Found, space: Space, changed: Mapping[str, float]) -> float | None:
-    asked = hunt.requirements.model_copy(update=dict(changed))
+    asked = hunt.requirements.unchecked_copy(dict(changed))
     try:
         search = Search.of(replace(hunt, requirements=asked).frame(space, found.needs), hunt.tables)
     except InfeasibleError:

@@ -184,8 +184,8 @@ class Frame:
 
     def at_torque(self, peak_torque: float) -> Frame:
         """The same frame with both required torques scaled to another peak torque (N m)."""
-        changed = self.requirements.model_copy(
-            update={
+        changed = self.requirements.unchecked_copy(
+            {
                 "peak_torque": peak_torque,
                 "continuous_torque": peak_torque * self.continuous_share,
             }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import NamedTuple, assert_never
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,8 +47,10 @@ def goal_value(frame: Frame, weights: Weights, sizes: Sizes) -> FloatArray:
         value = backlash_angle(frame, sizes)
     elif frame.goal == "efficiency":
         value = friction_share(frame, sizes)
-    else:
+    elif frame.goal == "size":
         value = swept_volume(frame, sizes)
+    else:
+        assert_never(frame.goal)
     return np.asarray(value * weights.mass**_TIE)
 
 

@@ -281,7 +281,7 @@ def _smallest(search: Search, key: str, limit: int) -> float | None:
 def _at(search: Search, key: str, millimetres: int) -> Search | None:
     """The same search with another ring or length; None where no part of the catalogue fits."""
     frame = search.frame
-    changed = frame.requirements.model_copy(update={key: millimetres * 1e-3})
+    changed = frame.requirements.unchecked_copy({key: millimetres * 1e-3})
     fit = Fit(frame.equidistant, min(one.hole_clearance for one in frame.pin_sizes))
     try:
         other = search_frame(changed, frame.motor, frame.ambient, fit, frame.goal)

@@ -130,7 +130,7 @@ def screened(
         ring = _ring(requirements, motor)
         if ring not in gearboxes:
             # Nothing else of a motor reaches a search: rows with room for the same ring share it.
-            asked = requirements.model_copy(update={"motor": motor.name})
+            asked = requirements.unchecked_copy({"motor": motor.name})
             tried = tuple(spaces(asked, FITS[0])) if every_space else (_own_space(asked),)
             gearboxes[ring] = _best(asked, motor, tried, ambient, goal)
         found.append(_ranked(requirements, motor, gearboxes[ring], goal, ring))

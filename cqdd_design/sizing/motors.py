@@ -243,7 +243,7 @@ def size_with_any(
     refused: dict[str, DesignError] = {}
     for number, motor in enumerate(order, 1):
         progress(f"motor {number} of {len(order)}: {motor.name}")
-        asked = requirements.model_copy(update={"motor": motor.name})
+        asked = requirements.unchecked_copy({"motor": motor.name})
         try:
             result = attempt(asked, motor)
         except DesignError as error:

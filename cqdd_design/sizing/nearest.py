@@ -165,7 +165,7 @@ def _less_torque(hunt: Hunt, refusal: SizingInfeasibleError) -> _Way:
     if most is not None and set(refusal.binding) == {"MOTOR-PEAK"}:
         peak = rounded_down(most, _DIGITS)
         if asked.continuous_torque <= peak < asked.peak_torque:
-            way = _tried(hunt, asked.model_copy(update={PEAK: peak}))
+            way = _tried(hunt, asked.unchecked_copy({PEAK: peak}))
             if way.found is not None:
                 return way
     for torque, lines in _ALONE.items():
@@ -241,7 +241,7 @@ def _least(hunt: Hunt, asked: Requirements, key: str, limit: float, *, doubtful:
     """
 
     def stating(length: float) -> Requirements:
-        changed = asked.model_copy(update={key: length})
+        changed = asked.unchecked_copy({key: length})
         changed.model_fields_set.add(key)
         return changed
 

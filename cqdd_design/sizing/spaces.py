@@ -66,8 +66,8 @@ class Space(NamedTuple):
 
     def of(self, requirements: Requirements) -> Requirements:
         """The requirements with these discs and materials, which are tried and not asked for."""
-        tried = requirements.model_copy(
-            update={
+        tried = requirements.unchecked_copy(
+            {
                 "disc_count": self.disc_count,
                 "disc_material": self.disc_material,
                 "ring_material": self.ring_material,

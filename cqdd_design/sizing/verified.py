@@ -263,7 +263,7 @@ def _may_go_back(hunt: Hunt, sound: _Sound | None) -> bool:
     if sound is None or sound.found.sized.objective.goal != hunt.goal:
         return False
     then, now = sound.requirements, hunt.requirements
-    same = then.model_copy(update={key: getattr(now, key) for key in (PEAK, CONTINUOUS)}) == now
+    same = then.unchecked_copy({key: getattr(now, key) for key in (PEAK, CONTINUOUS)}) == now
     return same and all(getattr(then, key) >= getattr(now, key) for key in (PEAK, CONTINUOUS))
 
 

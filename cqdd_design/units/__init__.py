@@ -39,6 +39,7 @@ from cqdd_design.units.dimensions import (
     VOLTAGE,
     Dimension,
 )
+from cqdd_design.units.plain import real_number, whole_number
 from cqdd_design.units.quantities import (
     Quantity,
     format_quantity,
@@ -83,5 +84,7 @@ __all__ = [
     "format_quantity",
     "parse_quantity",
     "read_quantity",
+    "real_number",
     "unit_string",
+    "whole_number",
 ]

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from cqdd_design.errors import DesignError
 from cqdd_design.units.dimensions import Dimension
+from cqdd_design.units.plain import real_number
 from cqdd_design.units.quantities import format_quantity, parse_quantity, read_quantity
 
 if TYPE_CHECKING:
@@ -38,9 +39,9 @@ class QuantityIn:
     reason: str
 
     def _validate(self, value: object, info: Any) -> float:
-        bare = isinstance(value, (int, float)) and not isinstance(value, bool)
-        if bare and info.context is not None and info.context.get("si"):
-            return self._bounded(float(value))  # type: ignore[arg-type]
+        bare = real_number(value)
+        if bare is not None and info.context is not None and info.context.get("si"):
+            return self._bounded(bare)
         try:
             return self._bounded(read_quantity(value, self.dimension))
         except DesignError as error:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from cqdd_design.errors import DesignError, did_you_mean, shown
 from cqdd_design.units.dimensions import Dimension
 from cqdd_design.units.expression import LONGEST, parse_expression
+from cqdd_design.units.plain import real_number
 
 if TYPE_CHECKING:
     import pint
@@ -210,7 +211,7 @@ def read_quantity(value: object, dimension: Dimension) -> float:
     known = sys.modules.get("pint")
     if known is not None and isinstance(value, known.Quantity):
         return parse_quantity(_unit_string(value, dimension), dimension)
-    if isinstance(value, (int, float)) and not isinstance(value, bool):
+    if real_number(value) is not None:
         text = shown(value)
         raise DesignError(f'{text} has no unit; write it like "{text} {dimension.unit}"')
     raise DesignError(
@@ -220,6 +221,11 @@ def read_quantity(value: object, dimension: Dimension) -> float:
 
 def _unit_string(quantity: pint.Quantity[Any], dimension: Dimension) -> str:
     """A quantity of pint as text; of a scale with a zero of its own, in its usual unit."""
+    if dimension.zeros and str(quantity.units).startswith("delta_"):
+        raise DesignError(
+            f"'{quantity}' is a difference; a {dimension.name} is written like "
+            f'{dimension.example()}, or in pint as Quantity(40, "{dimension.unit}")'
+        )
     if dimension.zeros and quantity.is_compatible_with(dimension.unit):
         quantity = quantity.to(dimension.unit)
         return f"{float(quantity.magnitude):.15g} {dimension.unit}"
@@ -246,7 +252,8 @@ def unit_string(given: object) -> str:
         return given
     known = sys.modules.get("pint")
     if known is not None and isinstance(given, known.Quantity):
-        return f"{float(given.magnitude)!r} {given.units:C}"
+        number = real_number(given.magnitude)
+        return shown(given) if number is None else f"{number!r} {given.units:C}"
     return shown(given)
 
 

@@ -350,12 +350,27 @@ def test_wrong_ratio_names_the_nearest(cqdd, ratio, nearest):
     )
 
 
+def test_air_that_no_design_stands_in_is_refused_by_its_option(cqdd):
+    done = cqdd("size", "--quick", "--ratio", "10", "--ambient", "250 degC")
+    assert done.code == 2
+    assert "--ambient: 250 degC is outside -60 degC to 90 degC" in done.err
+
+
+@pytest.mark.parametrize("peak", ["30", "-1 N*m"])
+def test_of_a_torque_that_is_refused_no_other_is_complained_of(cqdd, peak):
+    done = cqdd("size", "--quick", "--ratio", "10", "--peak-torque", peak)
+    assert done.code == 2
+    assert peak in done.err
+    assert "continuous" not in done.err
+
+
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
         (("analyse", "--torque", "40"), 'write it like "40 N*m"'),
         (("analyse", "--torque", "40 J"), "not a unit of torque"),
-        (("analyse", "--torque", "0 N*m"), "not above zero"),
+        (("analyse", "--torque", "0 N*m"), "the nearest is 0.001 N*m"),
+        (("analyse", "--speed", "-9 rpm"), 'not above zero; use "9 rpm"'),
         (("analyse", "--speed", "20 Hz"), "write rpm or rad/s"),
         (("analyse", "--angles", "2"), "--angles"),
         (("compare", "--teeth", "12,36,22"), "4 whole numbers"),

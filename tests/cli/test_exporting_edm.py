@@ -70,6 +70,31 @@ def test_a_wrong_option_is_exit_2_and_names_the_choices(
 
 
 @pytest.mark.parametrize(
+    ("kind", "option", "value", "readers"),
+    [
+        ("dxf", "--seed", "3", "mjcf or urdf or card or bam"),
+        ("dxf", "--calibration", "cal.json", "mjcf or urdf or card or bam"),
+        ("dxf", "--passes", "2", "gcode or edm"),
+        ("dxf", "--gcode-dialect", "sodick", "gcode or edm"),
+        ("dxf", "--step-schema", "AP242", "step or print"),
+        ("dxf", "--prices", "p.csv", "bom"),
+        ("bom", "--dxf-version", "R12", "dxf or edm"),
+        ("bom", "--dxf-style", "entities", "dxf or edm"),
+        ("bom", "--tab-length", "1 mm", "dxf or edm or gcode or sheets"),
+    ],
+)
+def test_an_option_that_no_kind_reads_is_exit_2_and_names_those_that_do(
+    cqdd, paper_design_file, tmp_path, kind, option, value, readers
+):
+    done = cqdd("export", paper_design_file, "--to", kind, option, value)
+    assert done.code == 2
+    told = " ".join(done.err.split())
+    assert f"cqdd-design: {option} " in told
+    assert f"ask for it with --to {readers}, or leave the option out." in told
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
     ("tolerance", "nearest"), [("0 um", "0.05 um"), ("1 m", "50 um"), ("-1 um", "0.05 um")]
 )
 def test_a_tolerance_that_no_file_can_have_is_exit_3(

@@ -15,5 +15,5 @@ DESIGN_S = Path(__file__).resolve().parents[2] / "designs" / "reference-s.toml"
 def reference_s(disc_count: int = 2) -> ContactModel:
     """S as the contact equilibrium sees it, plate and cap of its carrier one body."""
     design = load_design(DESIGN_S)
-    reducer = design.reducer.model_copy(update={"disc_count": disc_count})
-    return one_body(ContactModel.from_design(design.model_copy(update={"reducer": reducer})))
+    reducer = design.reducer.unchecked_copy({"disc_count": disc_count})
+    return one_body(ContactModel.from_design(design.unchecked_copy({"reducer": reducer})))

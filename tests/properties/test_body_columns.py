@@ -245,9 +245,9 @@ def test_columns_that_leave_too_little_are_a_sentence() -> None:
 
 def test_a_disc_of_very_many_holes_is_a_sentence() -> None:
     reducer = design_of_s().reducer
-    pins = reducer.output_pins.model_copy(update={"count": 30})
-    carrier = reducer.carrier.model_copy(update={"column_count": 30})
-    reducer = reducer.model_copy(update={"output_pins": pins, "carrier": carrier})
-    many = design_of_s().model_copy(update={"reducer": reducer})
+    pins = reducer.output_pins.unchecked_copy({"count": 30})
+    carrier = reducer.carrier.unchecked_copy({"column_count": 30})
+    reducer = reducer.unchecked_copy({"output_pins": pins, "carrier": carrier})
+    many = design_of_s().unchecked_copy({"reducer": reducer})
     with pytest.raises(GeometryError, match="60 holes, 30 of them for columns, has more than"):
         DiscShape.from_design(many, 0)

@@ -258,10 +258,8 @@ def test_a_stronger_steel_and_one_without_figures() -> None:
 
 def test_a_disc_too_thin_to_mesh_is_a_sentence_and_the_rest_is_there() -> None:
     design = machine_of_s().given
-    pins = design.reducer.output_pins.model_copy(update={"circle_radius": 21.5e-3})
-    thin = design.model_copy(
-        update={"reducer": design.reducer.model_copy(update={"output_pins": pins})}
-    )
+    pins = design.reducer.output_pins.unchecked_copy({"circle_radius": 21.5e-3})
+    thin = design.unchecked_copy({"reducer": design.reducer.unchecked_copy({"output_pins": pins})})
     with pytest.raises(GeometryError, match="too thin"):
         analyse_bodies(resolve(thin))
     found = analyse(thin, angles=8)
@@ -276,7 +274,7 @@ def test_a_disc_too_thin_to_mesh_is_a_sentence_and_the_rest_is_there() -> None:
 
 def test_a_disc_of_very_many_lobes_is_a_sentence() -> None:
     design = machine_of_s().design
-    many = design.model_copy(update={"reducer": design.reducer.model_copy(update={"ratio": 100})})
+    many = design.unchecked_copy({"reducer": design.reducer.unchecked_copy({"ratio": 100})})
     with pytest.raises(GeometryError, match="100 lobes and 10 holes"):
         elastic_bodies(many)
 

@@ -239,3 +239,62 @@ def test_no_value_raises_anything_but_our_own(changes):
     except CqddError:
         return
     assert Design.from_mapping(design.to_mapping()).sha256 == design.sha256
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        (lambda one: setattr(one, "name", "x"), "frozen, and name of Design .*replacing"),
+        (lambda one: setattr(one.reducer, "eccentricity", 0.002), "eccentricity of Reducer"),
+        (lambda one: setattr(one.requirements, "life", 1.0), "life of Requirements"),
+        (lambda one: setattr(one.reducer, "eccentricty", 0.002), "did you mean 'eccentricity'"),
+        (lambda one: delattr(one.reducer, "eccentricity"), "frozen, and eccentricity of Reducer"),
+    ],
+)
+def test_a_design_never_changes_and_says_how_to_get_another(change, told):
+    design = load_design(PAPER)
+    with pytest.raises(UsageError, match=told):
+        change(design)
+    assert design == load_design(PAPER)
+
+
+@pytest.mark.parametrize(
+    ("table", "update", "told"),
+    [
+        ("reducer", {"eccentricty": 0.001}, "did you mean 'eccentricity'"),
+        ("reducer", {"eccentricity": -1.0}, "outside 0.01 mm to 100 mm"),
+        ("reducer", {"eccentricity": "1 kg"}, "not a unit of length"),
+        ("requirements", {"peak_torque": 1.0}, "continuous_torque 40 N.m is above peak_torque"),
+        ("environment", {"coldest": 50.0}, "above ambient"),
+        ("environment", {"ambient": -20.0}, "coldest -10 degC is above ambient -20 degC"),
+        (None, {"name": "a/b"}, "becomes part of file names"),
+    ],
+)
+def test_a_copy_with_other_values_is_checked_like_a_file(table, update, told):
+    design = load_design(PAPER)
+    with pytest.raises(DesignError, match=told):
+        (design if table is None else getattr(design, table)).model_copy(update=update)
+
+
+def test_replacing_refuses_what_is_no_key():
+    design = load_design(PAPER)
+    for key, told in (
+        (3, r'^3 is not a dotted key, such as "reducer\.eccentricity"\.$'),
+        ("name.first", r"^name\.first is not a key: name is no table\.$"),
+        ("reducer.eccentricty", "did you mean 'eccentricity'"),
+    ):
+        with pytest.raises(DesignError, match=told):
+            design.replacing({key: "2 mm"})
+
+
+def test_a_copy_with_other_values_is_the_design_that_replacing_gives():
+    design = load_design(PAPER)
+    thicker = design.reducer.model_copy(update={"disc_thickness": "9 mm"})
+    copied = design.model_copy(update={"reducer": thicker})
+    replaced = design.replacing({"reducer.disc_thickness": 9e-3})
+    assert copied.sha256 == replaced.sha256 != design.sha256
+    assert thicker.model_copy() == thicker
+    # What was copied stays where another key is replaced.
+    assert copied.replacing({"name": "x"}).reducer.disc_thickness == 9e-3
+    loose = design.requirements.model_copy(update={"yield_share": 0.5})
+    assert (loose.yield_share, loose.peak_torque) == (0.5, 120.0)

@@ -110,18 +110,18 @@ def reference_s() -> Design:
 @functools.cache
 def many_lobes() -> Design:
     """29 lobes and 20 holes, which no turn carries into each other."""
-    requirements = reference_s().requirements.model_copy(update={"ratio": 29})
+    requirements = reference_s().requirements.unchecked_copy({"ratio": 29})
     design = changed(
         ratio=29,
         ring_pitch_radius=27.9e-3,
         eccentricity=0.64e-3,
         ring_pin_diameter=2.9e-3,
-        output_pins=reference_s().reducer.output_pins.model_copy(
-            update={"count": 20, "circle_radius": 21.65e-3, "hole_clocking": np.pi / 58.0}
+        output_pins=reference_s().reducer.output_pins.unchecked_copy(
+            {"count": 20, "circle_radius": 21.65e-3, "hole_clocking": np.pi / 58.0}
         ),
-        ring=reference_s().reducer.ring.model_copy(update={"outer_diameter": 60.7e-3}),
+        ring=reference_s().reducer.ring.unchecked_copy({"outer_diameter": 60.7e-3}),
     )
-    return resolve(design.model_copy(update={"requirements": requirements})).design
+    return resolve(design.unchecked_copy({"requirements": requirements})).design
 
 
 @functools.cache
@@ -137,7 +137,7 @@ def states_of_s() -> tuple[ContactModel, NominalStates]:
 
 def changed(**reducer: object) -> Design:
     design = reference_s()
-    return design.model_copy(update={"reducer": design.reducer.model_copy(update=reducer)})
+    return design.unchecked_copy({"reducer": design.reducer.unchecked_copy(reducer)})
 
 
 def bare(shape: DiscShape) -> DiscShape:
@@ -217,10 +217,10 @@ def designs_in_use() -> dict[str, Design]:
     """Those that are committed, and what else their like is made with."""
     named = ("cqdd-10", "reference-s", "printed-13")
     found = {name: resolve(load_design(DESIGNS / f"{name}.toml")).design for name in named}
-    ring = reference_s().reducer.ring.model_copy(update={"outer_diameter": 80e-3})
+    ring = reference_s().reducer.ring.unchecked_copy({"outer_diameter": 80e-3})
     found["conjugate"] = changed(ring=ring, ring_type="conjugate")
     found["pinwheel"] = changed(ring=ring, ring_type="pinwheel")
-    pins = reference_s().reducer.output_pins.model_copy(update={"count": 7})
+    pins = reference_s().reducer.output_pins.unchecked_copy({"count": 7})
     found["seven pins"] = changed(output_pins=pins)
     return found
 
@@ -781,7 +781,7 @@ def test_two_processes_make_one_entry(tmp_path: Path) -> None:
 
 
 def test_disc_too_thin_to_mesh_is_refused_with_a_sentence() -> None:
-    pins = reference_s().reducer.output_pins.model_copy(update={"circle_radius": 21.5e-3})
+    pins = reference_s().reducer.output_pins.unchecked_copy({"circle_radius": 21.5e-3})
     with pytest.raises(GeometryError, match=r"disc .* too thin"):
         disc_body(DiscShape.from_design(changed(output_pins=pins), 0))
 
@@ -797,7 +797,7 @@ def test_disc_too_thin_to_mesh_is_refused_with_a_sentence() -> None:
     ids=["pinwheel", "conjugate", "three discs", "one disc"],
 )
 def test_other_gearboxes_have_bodies_too(reducer: dict[str, object]) -> None:
-    ring = reference_s().reducer.ring.model_copy(update={"outer_diameter": 80e-3})
+    ring = reference_s().reducer.ring.unchecked_copy({"outer_diameter": 80e-3})
     design = changed(ring=ring, **reducer)
     bodies, model = elastic_bodies(design), ContactModel.from_design(design)
     states = nominal_states(model, np.linspace(0.0, 6.0, 5))

@@ -16,14 +16,14 @@ from cqdd_design.design import load_design
 from cqdd_design.errors import UsageError
 from cqdd_design.exporting.bill.consumables import bonds
 from cqdd_design.exporting.bill.known import catalogue_designations
-from cqdd_design.exporting.bill.prices import prices_asked_for, read_prices
+from cqdd_design.exporting.bill.prices import read_prices
 from cqdd_design.exporting.bill.substitutes import (
     equal_bearings,
     longer_screw,
     ordered_as,
     passes,
 )
-from cqdd_design.exporting.options import ExportOptions
+from cqdd_design.exporting.options import DEFAULTS, ExportOptions, refuse_unread
 from cqdd_design.exporting.solids.bom import (
     TOTAL,
     bill_of_materials,
@@ -273,8 +273,9 @@ def test_a_wrong_price_list_is_refused_by_row(bill, tmp_path, text, words):
 def test_prices_need_the_bill(tmp_path):
     path = _list(tmp_path, "designation,price,currency\n6902,4,EUR\n")
     with pytest.raises(UsageError, match="--to bom"):
-        prices_asked_for(path, ("dxf",))
-    assert prices_asked_for(None, ("dxf",)) is None
-    found = prices_asked_for(path, ("bom",))
+        refuse_unread(("dxf",), DEFAULTS, prices=path)
+    refuse_unread(("dxf",), DEFAULTS, prices=None)
+    refuse_unread(("bom",), DEFAULTS, prices=path)
+    found = read_prices(path)
     assert found.of(" 6902").amount == 4.0
     assert ExportOptions(prices=found).arguments()[-2:] == ["--prices", str(path)]

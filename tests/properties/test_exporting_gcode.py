@@ -259,7 +259,7 @@ def test_where_the_rough_cut_could_not_follow_skim_cuts_take_less(paper, parts):
     tightest = min(
         inner.arcs().radii[inner.bulges > 0.0].min(), outer.arcs().radii[outer.bulges < 0.0].min()
     )
-    thick = paper.edm.model_copy(update={"wire_diameter": 2.0 * (tightest - 32e-6)})
+    thick = paper.edm.unchecked_copy({"wire_diameter": 2.0 * (tightest - 32e-6)})
     found = wire_passes(parts[1].contours, thick, 4)
     assert found[-1].offset == pytest.approx(tightest - 20e-6)
     assert found[0].offset < tightest

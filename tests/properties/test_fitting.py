@@ -111,6 +111,20 @@ def test_what_cannot_be_measured_is_a_sentence(actuator: ActuatorParameters) -> 
         fit(actuator, {"torque_bandwidth": 300.0}, ("thermal_resistance",), VOLTAGE)
 
 
+def test_what_is_far_out_of_reach_is_told_with_what_is_nearest(
+    actuator: ActuatorParameters,
+) -> None:
+    """Past two hundred times the nearest too."""
+    said = []
+    for wanted in (1e3, 1e6):
+        with pytest.raises(UsageError, match="nearest that was found is") as caught:
+            fit(actuator, {"continuous_torque": wanted}, ("thermal_resistance",), VOLTAGE)
+        said.append(caught.value.message.partition("nearest")[2])
+    assert len(set(said)) == 1
+    with pytest.raises(UsageError, match=r"no thermal_resistance from .* gives continuous_torque"):
+        fit(actuator, {"continuous_torque": 1e-6}, ("thermal_resistance",), VOLTAGE)
+
+
 def test_wrong_rows_are_refused_before_anything_is_built(monkeypatch: pytest.MonkeyPatch) -> None:
     def built(*_: object, **__: object) -> None:
         raise AssertionError("a machine was built")

@@ -1,6 +1,7 @@
 """What ``import cqdd_design`` gives: names, arguments, errors, results."""
 
 import dataclasses
+import functools
 import inspect
 import re
 import subprocess
@@ -8,6 +9,7 @@ import sys
 import warnings
 from pathlib import Path
 
+import numpy as np
 import pint
 import pytest
 
@@ -156,7 +158,7 @@ def test_an_example_a_file_and_a_design_are_the_same():
 def test_what_is_no_design_is_told_with_what_there_is():
     with pytest.raises(UsageError, match=r"neither a file cqdd-11 nor such an example; .*cqdd-10"):
         cq.load("cqdd-11")
-    with pytest.raises(UsageError, match="design must be a path, not a int"):
+    with pytest.raises(UsageError, match="design must be a Design or the path"):
         cq.load(11)
 
 
@@ -180,8 +182,9 @@ def test_another_motor_tells_what_it_replaces(tmp_path):
         (40.0, r'^torque: 40.0 has no unit; write it like "40.0 N\*m"\.$'),
         (UNITS.Quantity(40.0, "joule"), "^torque: 'joule' is not a unit of torque"),
         (UNITS.Quantity([1.0, 2.0], "N*m"), "^torque: a torque is one number"),
-        ("-3 N*m", r"^torque -3 N\*m is not above zero"),
-        ("1e-6 N*m", r"^torque: 1e-06 N\*m is outside 0.001 to 100000 N\*m\.$"),
+        ("-3 N*m", r"^torque: -3 N\*m is outside 0.001 to 100000 N\*m; the nearest is 0.001 N"),
+        ("1e-6 N*m", r"^torque: 1e-06 N\*m is outside 0.001 to 100000 N\*m; the nearest is 0.001 "),
+        (UNITS.Quantity(40.0, "N*m/kg"), "^torque: .* is not a unit of torque"),
     ],
 )
 def test_a_torque_that_is_none_is_refused_by_its_name(given, told):
@@ -208,6 +211,52 @@ def test_a_torque_that_is_none_is_refused_by_its_name(given, told):
         (lambda: cq.bench("cqdd-10", beside=["x"]), "x"),
         (lambda: cq.export("cqdd-10", "dfx"), "dfx"),
         (lambda: cq.calibrate("printed-13"), "give them with measured FILE"),
+        (lambda: cq.analyse("cqdd-10", friction="OFF"), "^friction 'OFF' is none of .* 'off'"),
+        (lambda: cq.analyse("cqdd-10", friction=None), "^friction None is none of drive, back"),
+        (lambda: cq.analyse("cqdd-10", friction=False), "^friction False is none of"),
+        (lambda: cq.analyse("cqdd-10", contact_law="hertz"), "^contact_law 'hertz' is none of pal"),
+        (lambda: cq.analyse("cqdd-10", contact_law=None), "^contact_law None is none of"),
+        (lambda: cq.analyse("cqdd-10", speed="-5 rpm"), '^speed -5 rpm .* use "5 rpm", for'),
+        (
+            lambda: cq.analyse("cqdd-10", temperature=UNITS.Quantity(40.0, "delta_degC")),
+            "^temperature: '40.0 delta_degree_Celsius' is a difference; .*1 degC",
+        ),
+        (lambda: cq.analyse("cqdd-10", tempreature="4 degC"), "^analyse has no .*'temperature'"),
+        (lambda: cq.analyse(), "^analyse: missing a required argument: 'design'; it takes design"),
+        (lambda: cq.analyse("cqdd-10", "3 N*m"), "^analyse: too many .* by name"),
+        (lambda: cq.check({"requirements": {}}), "^design must .* Design.from_mapping"),
+        (lambda: cq.size(10, objective="weight"), "^objective 'weight' is none of mass, inertia"),
+        (lambda: cq.size(requirements=10), "^requirements 10 are none: .*mapping"),
+        (lambda: cq.size(requirements={"peak": 3}), "^size needs ratio N"),
+        (lambda: cq.size(10, motor=3), "^motor 3 is not a text"),
+        (lambda: cq.size(10, ambient="250 degC"), "^ambient: 250 degC is outside -60 .* 90 degC"),
+        (lambda: cq.compare("cqdd-10", teeth=None), "^teeth None must be four numbers"),
+        (lambda: cq.compare("cqdd-10", teeth="12,36,22"), "^teeth 12,36,22 must be four numbers"),
+        (lambda: cq.compare("cqdd-10", planets="3"), "^planets '3' is not a whole .* 1 to 24"),
+        (lambda: cq.compare("cqdd-10", material=3), "^material 3 is not a text"),
+        (
+            lambda: cq.compare("cqdd-10", settings={"aplication_factor": 1.5}),
+            "^settings: 'aplication_factor' is no setting; did you mean 'application_factor'",
+        ),
+        (
+            lambda: cq.compare("cqdd-10", settings={"life_hours": None}),
+            "^life_hours = None is not a number, such as 1000",
+        ),
+        (
+            lambda: cq.calibrate("cqdd-10", {"continuous_torque": "37 kg"}),
+            r"^continuous_torque: 'kg' is not a unit of torque; .* a number in N\*m",
+        ),
+        (lambda: cq.calibrate("cqdd-10", {"efficiency_peak": "80 %"}), "not a number, such as 0.8"),
+        (lambda: cq.simulate("cqdd-10", load=None), "^load None is none of free, locked"),
+        (lambda: cq.simulate("cqdd-10", friction=None), "^friction None is none of clip, lugre"),
+        (lambda: cq.bench("cqdd-10", only=3), r'^only 3 is not a name; .*\("mass",\)'),
+        (lambda: cq.bench("cqdd-10", only=["mass", 3]), "^only 3 is not a name"),
+        (lambda: cq.bench("cqdd-10", beside="foo, bar"), "no motor 'foo'"),
+        (lambda: cq.export("cqdd-10", 3), "^to 3 is not a name"),
+        (lambda: cq.export("cqdd-10", "gcode", passes="4"), "^passes '4' is not a whole number"),
+        (lambda: cq.export("cqdd-10", "dxf", seed=3), "^seed draws .*with to mjcf or urdf"),
+        (lambda: cq.load("cqdd-10", motor=3), "^motor 3 is not a text"),
+        (lambda: cq.report("cqdd-10", format=3), "^format 3 is not a text"),
     ],
 )
 def test_errors_name_arguments_and_are_of_one_family(call, told):
@@ -225,6 +274,38 @@ def test_requirements_and_designs_refuse_in_our_own_words():
     half = cq.Requirements(ratio=10, peak_torque=UNITS.Quantity(0.05, "kN*m"))
     assert half.peak_torque == 50.0
     assert half.continuous_torque == pytest.approx(19.0)
+
+
+@pytest.mark.parametrize("peak", [30, "-3 N*m", "3 kg", "1e9 N*m"])
+def test_of_a_peak_torque_that_is_refused_nothing_else_is_complained_of(peak):
+    for ask in (cq.Requirements, functools.partial(cq.size, quick=True)):
+        with pytest.raises(CqddError, match="peak_torque") as caught:
+            ask(ratio=10, peak_torque=peak)
+        assert "continuous_torque" not in caught.value.message
+
+
+def test_requirements_may_be_a_mapping_of_their_keys():
+    told = {"ratio": 8, "peak_torque": "15 N*m", "yield_share": 0.9}
+    found = cq.size(requirements=told, peak_torque="20 N*m", quick=True)
+    asked = found.design.requirements
+    assert (asked.ratio, asked.peak_torque, asked.yield_share) == (8, 20.0, 0.9)
+
+
+def test_numbers_of_numpy_are_numbers_and_a_whole_float_is_whole():
+    asked = cq.Requirements(ratio=np.int64(10), efficiency=np.float32(0.5))
+    assert (asked.ratio, asked.efficiency) == (10, 0.5)
+    assert type(asked.ratio) is int
+    paper = cq.load("cqdd-10")
+    changed = paper.replacing({"reducer.eccentricity": np.float64(0.0015), "reducer.ratio": 10.0})
+    assert changed.reducer.eccentricity == 0.0015
+    plain = cq.compare(paper, planets=3).to_dict()["results"]
+    teeth = np.array([12, 36, 22, 70])
+    assert cq.compare(paper, teeth=teeth, planets=np.int32(3)).to_dict()["results"] == plain
+    assert cq.compare(paper, teeth="12, 36, 22, 70", planets=3.0).to_dict()["results"] == plain
+    assert len(cq.tolerance(paper, samples=np.uint8(2), angles=110.0, seed=3.0).found.values) == 2
+    for wrong in (True, np.bool_(True), 2.5, np.float64("nan"), "2", None):
+        with pytest.raises(UsageError, match=r"^samples .* is not a whole number; .* from 1 to"):
+            cq.tolerance(paper, samples=wrong)
 
 
 def test_quantities_of_pint_are_those_of_strings():
@@ -274,6 +355,13 @@ def test_a_design_and_a_machine_are_told_in_a_line(analysed):
     assert repr(analysed.machine) == f"Machine of {told}; cam bearing 6902"
 
 
+def test_a_notebook_shows_a_design_in_a_table():
+    shown = cq.load("cqdd-10").replacing({"name": "R&D"})._repr_html_()
+    assert shown.startswith("<table><caption>R&amp;D</caption>")
+    for cell in ("10", "72 mm", "2 x 8 mm", "CubeMars RO100 Lite KV55"):
+        assert f"<td>{cell}</td>" in shown
+
+
 def test_a_notebook_shows_the_reports_own_figures(analysed):
     import html
 
@@ -308,6 +396,26 @@ def test_no_pandas_is_told_as_a_missing_package(monkeypatch):
     run = cq.simulate("cqdd-10", command="open", duration="5 ms")
     with pytest.raises(DependencyError, match="to_pandas needs the Python package pandas"):
         run.to_pandas()
+
+
+@pytest.mark.parametrize(
+    ("asked", "told"),
+    [
+        ({"frequency": "400 Hz"}, []),
+        ({"frequency": "900 Hz"}, ["frequency 900 Hz is above half of the rate of the record, 1"]),
+        ({"frequency": "900 Hz", "rate": "2 kHz"}, []),
+        (
+            {"frequency": "900 Hz", "rate": "2 kHz", "command": "position"},
+            ["frequency 900 Hz is above half of the drive's control_rate, 1 kHz; lower it"],
+        ),
+        ({"end_frequency": "600 Hz", "duration": "5 ms"}, ["end_frequency 600 Hz is above half"]),
+    ],
+)
+def test_a_command_too_fast_to_be_sampled_is_told(asked, told):
+    run = cq.simulate("cqdd-10", **({"amplitude": None, "duration": "5 ms"} | asked))
+    fast = [one for one in run.warnings if "above half" in one]
+    assert len(fast) == len(told)
+    assert all(one.startswith(words) for one, words in zip(fast, told, strict=True))
 
 
 def test_a_simulation_of_an_open_circuit_stays_at_rest():

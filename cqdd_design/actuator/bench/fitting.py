@@ -1,9 +1,9 @@
 """Values of unknowns, each in its range, with which the bench gives measured rows.
 
 Least squares of relative misses over logarithms. Where a row cannot be measured with some values
-(a gearbox that holds itself, a machine that cannot be stepped), its miss is that of the whole
-range: the search turns back there instead of ending. What it ends with is bounded, can be measured,
-and comes within `CLOSE` of as many rows as there are unknowns; else a sentence says what fails.
+(a gearbox that holds itself, a machine that cannot be stepped), its miss is past all others: the
+search turns back there instead of ending. What it ends with is bounded, can be measured, and comes
+within `CLOSE` of as many rows as there are unknowns; else a sentence says what fails.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ CLOSE = 0.05
 """Relative miss of a row below which it counts as fitted."""
 _STEP = 0.02
 """Of a logarithm for its slope: simulated rows are smooth to a part in a thousand only."""
-_UNMEASURED = math.log(200.0)
-"""Miss of a row that cannot be measured."""
+_UNMEASURED = 1500.0
+"""Miss of a row that cannot be measured: above the logarithm of any ratio of two floats."""
 _FITTED = 1e-3
 """Relative miss that is not worth another step."""
 _MOST_ROUNDS, _HALVINGS, _LONGEST = 15, 5, 2.0
@@ -80,7 +80,7 @@ class _Misses:
                 )
             lost = value is None or value <= 0.0
             misses.append(_UNMEASURED if lost or value is None else math.log(value / wanted))
-        return np.clip(misses, -_UNMEASURED, _UNMEASURED)
+        return np.array(misses)
 
     def slopes(self, logarithms: FloatArray, most: FloatArray) -> FloatArray:
         """Of the misses over the logarithms (R, U), by steps that stay in the range."""

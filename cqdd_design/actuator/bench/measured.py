@@ -9,7 +9,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 from cqdd_design.actuator.bench.metric import METRICS, refuse_unmeasured
-from cqdd_design.errors import CqddError, UsageError
+from cqdd_design.errors import CqddError, DesignError, UsageError, shown
 from cqdd_design.files import read_text_file
 from cqdd_design.units import (
     ANGLE,
@@ -23,6 +23,8 @@ from cqdd_design.units import (
     TORQUE_DENSITY,
     Dimension,
     parse_quantity,
+    read_quantity,
+    real_number,
 )
 
 _MOST_BYTES = 1_000_000
@@ -93,6 +95,28 @@ def read_measured(path: Path) -> dict[str, float]:
         raise UsageError(f"{path} has a head and no rows; it needs lines such as\n{_EXAMPLE}")
     _refuse_impossible(found, path)
     return found
+
+
+def in_bench_units(name: str, value: object) -> float:
+    """A measured value in the unit of the bench: a number in that unit, or a quantity.
+
+    Raises
+    ------
+    UsageError
+        For a name that is no measurement, or a value that is neither, with the unit.
+    """
+    refuse_unmeasured(name)
+    number = real_number(value)
+    if number is not None:
+        return number
+    unit = METRICS[name]
+    if not unit:
+        raise UsageError(f"{name} = {shown(value)} is not a number, such as 0.8: a share.")
+    dimension = DIMENSIONS[unit]
+    try:
+        return read_quantity(value, dimension) / dimension.si_factor
+    except DesignError as error:
+        raise UsageError(f"{name}: {error.message.rstrip('.')}; or a number in {unit}.") from None
 
 
 _ORDERED = (

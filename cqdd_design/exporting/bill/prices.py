@@ -119,21 +119,6 @@ def read_prices(path: Path) -> PriceList:
     return PriceList(path, MappingProxyType(found))
 
 
-def prices_asked_for(path: Path | None, kinds: Iterable[str]) -> PriceList | None:
-    """The price list of a call; None where none is named.
-
-    Raises
-    ------
-    UsageError
-        As :func:`read_prices`, and when the bill is not among the kinds of file.
-    """
-    if path is None:
-        return None
-    if "bom" not in kinds:
-        raise UsageError("--prices fills in the bill of materials; ask for it with --to bom.")
-    return read_prices(path)
-
-
 def _places(path: Path, headings: list[str]) -> dict[str, int]:
     missing = [name for name in COLUMNS[:3] if name not in headings]
     if missing:
