@@ -12,7 +12,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 
-from cqdd_design.catalog import find_bare_motor, find_bearing, find_finish, find_material
+from cqdd_design.catalog import (
+    find_bare_motor,
+    find_bearing,
+    find_finish,
+    find_lubricant,
+    find_material,
+)
 from cqdd_design.errors import CatalogError, DesignError, is_unprintable, shown
 
 if TYPE_CHECKING:
@@ -162,3 +168,4 @@ MaterialName = Annotated[str, AfterValidator(_known(find_material))]
 MotorName = Annotated[str, AfterValidator(_known(find_bare_motor))]
 BearingName = Annotated[str, AfterValidator(_known(find_bearing, "auto"))]
 FinishName = Annotated[str, AfterValidator(_known(find_finish))]
+LubricantName = Annotated[FreeText, AfterValidator(_known(find_lubricant))]

@@ -129,6 +129,7 @@ def test_new_file_leaves_assumed_keys_out(tmp_path):
         ({**reducer(), "name": "a\ud800b"}, "part of file names"),
         ({**reducer(), "name": "a" * 201}, "200 bytes at most"),
         (reducer(friction={"lubricant": "oil\u202e"}), "control or direction character"),
+        (reducer(friction={"lubricant": "SKF LGLT2"}), "the nearest are 'SKF LGLT 2'"),
         (reducer(ratio=10**400), "reducer.ratio is a whole number of 401 digits"),
         (reducer(ratio=-(10**5000)), "reducer.ratio is a whole number of 5001 digits"),
         (reducer(output_pins={"count": 2**70}), "reducer.output_pins.count is 1180591620717411"),
