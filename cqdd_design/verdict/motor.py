@@ -95,7 +95,8 @@ def _unknown(check_id: str, asked: Requirements, why: str) -> Check:
         "MOTOR-CONTINUOUS": asked.continuous_torque,
         "MOTOR-SPEED": asked.input_speed * _RPM,
     }[check_id]
-    return build_check(check_id, None, limit, why, "see why it cannot be simulated", model=MODEL)
+    told = why.removesuffix(".")
+    return build_check(check_id, None, limit, told, "see why it cannot be simulated", model=MODEL)
 
 
 def _data(motor: Motor) -> tuple[Check, ...]:
