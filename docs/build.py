@@ -241,7 +241,8 @@ def _allowables() -> str:
     rows = ["| check | rule | unit | missed | source |", "|---|---|---|---|---|"]
     for row in CHECK_GUIDE.values():
         source = row.source.replace(HOUSE, "house rule")
-        cells = (f"`{row.id}`", row.formula, row.unit, row.severity, source)
+        missed = f"{row.severity}; {row.exception}" if row.exception else row.severity
+        cells = (f"`{row.id}`", row.formula, row.unit, missed, source)
         rows.append(f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |")
     bending = partial(allowables.pin_bending_limit_continuous, duty_reverses=False)
     limits = (

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from cqdd_design.actuator.bench.unknowns import apply_factors
-from cqdd_design.actuator.friction import STRIBECK_SPEED, friction_parameters
+from cqdd_design.actuator.friction import STRIBECK_SPEED, friction_parameters, load_shares
 from cqdd_design.actuator.parameters import (
     ActuatorParameters,
     DriveParameters,
@@ -29,6 +29,7 @@ from cqdd_design.machine import Machine
 from cqdd_design.machine.cooling import cooled_network, two_nodes
 from cqdd_design.machine.thermal_parts import COPPER_HEAT, WINDING_SHARE
 from cqdd_design.solids.inertia import GROUPS, GearboxInertia, rotor_scope
+from cqdd_design.units import SMALL_LENGTH, TORQUE, format_quantity
 
 ELECTRICAL_TIME = 1e-3
 """L/R where the catalogue has no inductance, s: common for large flat motors."""
@@ -88,6 +89,7 @@ def actuator_parameters(
     found = transmission(machine.contact, design, torque, seed=specimen.seed)
     split = _split(inertia)
     gear = _gear(design, found, split, motor.rotor_inertia, specimen.seed, origins)
+    _refuse_binding(machine)
     friction = friction_parameters(
         machine.losses,
         torque,
@@ -142,6 +144,25 @@ def motor_and_drive(
     origins: dict[str, str] = {}
     motor = _motor(machine.motor, machine.inertia, origins)
     return motor, _drive(machine.design, motor, supply_voltage, origins), origins
+
+
+def _refuse_binding(machine: Machine) -> None:
+    """Refuse a gearbox whose friction cannot be put as shares of what it carries."""
+    design = machine.design
+    asked, reducer = design.requirements, design.reducer
+    *shares, _ = load_shares(machine.losses, asked.continuous_torque, asked.input_speed)
+    if min(shares) >= 0.0:
+        return
+    hole, teeth = reducer.output_pins.hole_clearance, reducer.modification.equidistant
+    tightest = next(one for one in machine.analysis.checks if one.id == "FIT-PIN-HOLE")
+    cure = f"{tightest.remedy}, or more" if tightest.status == "fail" else "raise one of them"
+    raise DesignError(
+        f"the gearbox binds: with output_pins.hole_clearance {format_quantity(hole, SMALL_LENGTH)} "
+        f"and modification.equidistant {format_quantity(teeth, SMALL_LENGTH)} pins or teeth press "
+        "on one another without any torque, and rub more than at the continuous torque, "
+        f"{format_quantity(asked.continuous_torque, TORQUE)}, so that its losses cannot be put as "
+        f"friction; {cure}, until the parts have play."
+    )
 
 
 def _split(inertia: GearboxInertia) -> _Split:

@@ -50,13 +50,8 @@ def friction_parameters(
     speed, the static one is that of none, and the Stribeck speed is fitted to what lies between.
     """
     machine, n = losses.machine, losses.machine.lobe_count
-    loads = []
-    for sense in SENSES:
-        loaded, none = losses.coulomb_work([torque, 0.0], sense, input_speed).sum(axis=-1)
-        loads.append(n * float(loaded - none) / torque)
-    forward, load = loads
+    forward, load, preload = load_shares(losses, torque, input_speed)
     slow, fast = machine.drag(0.0), machine.drag(input_speed)
-    preload = float(none)
     output = float(slow["output_bearing"]) * n
     motor = sum(float(v) for k, v in slow.items() if k != "output_bearing") + preload
     motor_rise = sum(float(fast[k] - slow[k]) for k in slow if k != "output_bearing")
@@ -83,6 +78,19 @@ def friction_parameters(
         load_forward=forward,
         load_backward=load,
     )
+
+
+def load_shares(losses: LossModel, torque: float, input_speed: float) -> tuple[float, float, float]:
+    """Friction over the torque carried, the motor driving and the output, and that without torque.
+
+    The last is N m at the crank. Shares below zero are those of a gearbox that binds: what presses
+    its parts on one another without any torque rubs more than the torque (N m) does.
+    """
+    found = [losses.coulomb_work([torque, 0.0], sense, input_speed).sum(-1) for sense in SENSES]
+    forward, backward = (
+        losses.machine.lobe_count * float(loaded - none) / torque for loaded, none in found
+    )
+    return forward, backward, float(found[-1][1])
 
 
 def _stribeck_speed(losses: LossModel, torque: float, input_speed: float) -> float:

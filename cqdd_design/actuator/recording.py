@@ -237,10 +237,23 @@ class Recording:
         return tuple(found)
 
     @property
+    def too_coarse(self) -> bool:
+        """Whether the command swings faster than records at this rate can show (Nyquist)."""
+        return 2.0 * _fastest(self.scenario.command.reference) > self.rate * (1.0 - 1e-9)
+
+    @property
     def warnings(self) -> tuple[str, ...]:
-        """Sentences on limits that bind."""
+        """Sentences on limits that bind, and on a record that hides what happens."""
         run, first = self.simulation, self.parameters[0]
         told = list(run.warnings)
+        if self.too_coarse:
+            fastest = _fastest(self.scenario.command.reference)
+            told.append(
+                f"the signal swings at up to {fastest:g} Hz, and {self.rate:g} records a second "
+                f"show no more than {0.5 * self.rate:g} Hz: columns, peaks and r.m.s. are of the "
+                "records alone and miss what happens between them, energies do not; raise the rate "
+                f"to {STEPS_PER_PERIOD * fastest:g} Hz."
+            )
         drive = first.drive
         for name, unit, values, limit in (
             ("current limit", "A", run.current, drive.current_limit),

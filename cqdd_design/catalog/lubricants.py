@@ -12,10 +12,9 @@ import math
 import re
 from dataclasses import dataclass, replace
 
-from cqdd_design.catalog.reader import column, read_records
-from cqdd_design.errors import UsageError
+from cqdd_design.catalog.reader import column, find, read_records
+from cqdd_design.errors import CatalogError, UsageError
 
-DEFAULT_LUBRICANT = "NLGI 2 grease"
 RUNNING_TEMPERATURE = 40.0
 """Of the lubricant where nothing else is said, deg C: that of the printed viscosities."""
 
@@ -174,8 +173,8 @@ def lubricants() -> dict[str, Lubricant]:
     return {one.name: one for one in read_records("lubricants.csv", Lubricant)}
 
 
-def find_lubricant(name: str) -> tuple[Lubricant, str | None]:
-    """Return the lubricant called `name`, and a warning where the default had to be taken.
+def find_lubricant(name: str) -> Lubricant:
+    """The lubricant called `name`.
 
     Parameters
     ----------
@@ -183,28 +182,29 @@ def find_lubricant(name: str) -> tuple[Lubricant, str | None]:
         A row of the catalogue; ``NLGI 000 grease`` to ``NLGI 3 grease``, or ``ISO VG 100 oil`` with
         any grade from 2 to 3200: those between the catalogue's rows lie between them.
 
+    Raises
+    ------
+    CatalogError
+        With the nearest names, when there is none.
+
     Examples
     --------
-    >>> find_lubricant("ISO VG 68 oil")[0].viscosity
+    >>> find_lubricant("ISO VG 68 oil").viscosity
     6.8e-05
     """
     text = " ".join(name.split())
-    rows = {key.casefold(): row for key, row in lubricants().items()}
     if grease := _GREASE.fullmatch(text):
-        return replace(rows[f"nlgi {grease[1]} grease"], name=name.strip()), None
+        return lubricants()[f"NLGI {grease[1]} grease"]
     oil = _OIL.fullmatch(text)
     if oil and _LEAST_GRADE <= int(oil[1]) <= _MOST_GRADE:
-        return replace(_oil_of_grade(int(oil[1])), name=name.strip()), None
-    if text.casefold() in rows:
-        return rows[text.casefold()], None
-    taken = lubricants()[DEFAULT_LUBRICANT]
-    warning = (
-        f"friction.lubricant '{name}' is not known; its drag is that of {DEFAULT_LUBRICANT} "
-        f"({taken.viscosity * 1e6:g} mm^2/s at 40 C). Known are 'NLGI 000 grease' to 'NLGI 3 "
-        "grease', 'ISO VG 2 oil' to 'ISO VG 3200 oil', and what `cqdd-design catalog lubricants` "
-        "lists."
-    )
-    return taken, warning
+        return _oil_of_grade(int(oil[1]))
+    try:
+        return find(name, lubricants(), "lubricant")
+    except CatalogError as error:
+        raise CatalogError(
+            f"{error.message.removesuffix('.')}, and oils may have any grade from "
+            f"'ISO VG {_LEAST_GRADE} oil' to 'ISO VG {_MOST_GRADE} oil'."
+        ) from None
 
 
 def _oil_of_grade(grade: int) -> Lubricant:
@@ -226,4 +226,5 @@ def _oil_of_grade(grade: int) -> Lubricant:
     ends = [_walther(1e6 * one.hot_viscosity) for one in (low, high)]
     hot = 10.0 ** (10.0 ** (ends[0] + share * (ends[1] - ends[0]))) - _WALTHER
     near = low if grade < 1e6 * low.viscosity else high
-    return replace(near, viscosity=grade * 1e-6, hot_viscosity=hot * 1e-6)
+    name = f"ISO VG {grade} oil"
+    return replace(near, name=name, viscosity=grade * 1e-6, hot_viscosity=hot * 1e-6)

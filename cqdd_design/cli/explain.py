@@ -31,6 +31,8 @@ def explain(
         return
     guide = check_guide(check)
     effect = "exit code 4 from `check`" if guide.severity == "fail" else "a warning"
+    if guide.exception:
+        effect += f"; {guide.exception}"
     out.say(
         f"{guide.id}: {guide.title}",
         "",

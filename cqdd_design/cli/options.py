@@ -51,7 +51,11 @@ NamedMotor = Annotated[
 ]
 OwnMotor = Annotated[
     Path | None,
-    option("FILE", "Motor in TOML, over the design's [motor] and the catalogue.", "--motor-file"),
+    option(
+        "FILE",
+        "TOML of a motor's keys, over the design's [motor] and the catalogue.",
+        "--motor-file",
+    ),
 ]
 Duty = Annotated[
     Path | None,

@@ -27,8 +27,13 @@ def report(
         Path | None, option("FILE", "Where to; default reports/NAME.html or NAME.pdf.", "--out")
     ] = None,
     format: Annotated[
-        str, option("html|pdf", "The page, or its print by a browser (Chromium).", "--format")
-    ] = "html",
+        str | None,
+        option(
+            "html|pdf",
+            "The page, or its print by a browser (Chromium); default as --out ends, or html.",
+            "--format",
+        ),
+    ] = None,
     seed: BenchSeed = None,
     calibration: Calibrated = None,
     motor: NamedMotor = None,
@@ -44,7 +49,7 @@ def report(
         from cqdd_design.cli.tables import headline_table
         from cqdd_design.roads.report import REPORT_STAGES, report_form, write_report
 
-        chosen = report_form(format)
+        chosen = report_form(format, target)
         loaded = under_duty(read_design(out, design, motor, motor_file), duty, duty_columns)
         out.compile_ahead(loaded, simulation=True, ensembles=True)
         written = write_report(

@@ -209,6 +209,10 @@ def _lines(result: Recording) -> list[str]:
         values = [one[key] for one in sets]
         cells = [min(values), sum(values) / len(values), max(values)] if len(sets) > 1 else values
         rows.append([title, *map(number, cells), unit])
+    if result.too_coarse:
+        for row in rows:
+            if row[0].endswith((", peak", ", r.m.s.")):
+                row[0] += " of the records"
     head = ["", "least", "mean", "most", "unit"] if len(sets) > 1 else ["", "value", "unit"]
     count = len(result.simulation.time)
     drawn = f"{len(result.seeds)} drawn from the tolerances" if result.seeds else "perfect parts"

@@ -11,7 +11,13 @@ from typing import TYPE_CHECKING, Annotated, Any, NoReturn, Self
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 
-from cqdd_design.catalog import find_bare_motor, find_bearing, find_finish, find_material
+from cqdd_design.catalog import (
+    find_bare_motor,
+    find_bearing,
+    find_finish,
+    find_lubricant,
+    find_material,
+)
 from cqdd_design.errors import (
     CatalogError,
     DesignError,
@@ -232,3 +238,4 @@ MaterialName = Annotated[str, AfterValidator(_known(find_material))]
 MotorName = Annotated[str, AfterValidator(_known(find_bare_motor))]
 BearingName = Annotated[str, AfterValidator(_known(find_bearing, "auto"))]
 FinishName = Annotated[str, AfterValidator(_known(find_finish))]
+LubricantName = Annotated[FreeText, AfterValidator(_known(find_lubricant))]

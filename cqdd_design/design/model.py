@@ -54,6 +54,41 @@ def too_cold_a_surface(asked: Requirements, ambient: float) -> str:
     )
 
 
+def _other_parts(design: Design) -> dict[str, tuple[str, Any]]:
+    """Requirements whose part the design has another of, stated or not: where, and which."""
+    reducer, motor = design.reducer, design.motor
+    has: dict[str, tuple[str, Any]] = {
+        "motor": ("motor.name", motor.base or motor.name),
+        "disc_count": ("reducer.disc_count", reducer.disc_count),
+        "disc_material": ("reducer.disc_material", reducer.disc_material),
+        "ring_material": ("reducer.ring_material", reducer.ring_material),
+        "pin_material": ("reducer.output_pins.material", reducer.output_pins.material),
+    }
+    asked = design.requirements
+    return {key: part for key, part in has.items() if getattr(asked, key) != part[1]}
+
+
+def parts_not_asked_for(design: Design) -> tuple[str, ...]:
+    """A sentence on every part that stated requirements name and the design has another of.
+
+    Each without its last stop. Requirements that were left out hold their defaults for `size` and
+    ask a design for nothing.
+    """
+    asked = design.requirements
+    return tuple(
+        f"requirements.{key} {shown(getattr(asked, key))} is not {place} {shown(there)}; make them "
+        f"equal or leave requirements.{key} out"
+        for key, (place, there) in _other_parts(design).items()
+        if key in asked.model_fields_set
+    )
+
+
+def _defaults_it_does_not_have(design: Design) -> list[str]:
+    """Requirements that nobody stated and whose default is another part than the design has."""
+    stated = design.requirements.model_fields_set
+    return [key for key in _other_parts(design) if key not in stated]
+
+
 class Design(FrozenModel):
     """A complete actuator design.
 
@@ -261,11 +296,19 @@ class Design(FrozenModel):
 
     def dotted_keys(self) -> tuple[str, ...]:
         """All dotted keys of the resolved design, in file order."""
-        return tuple(_leaves_of(self))
+        without = {f"requirements.{key}" for key in _defaults_it_does_not_have(self)}
+        return tuple(key for key in _leaves_of(self) if key not in without)
 
     def to_mapping(self) -> dict[str, Any]:
-        """The design as nested tables with unit strings, every key present that has a value."""
-        return dump(self)
+        """The design as nested tables with unit strings, every key present that has a value.
+
+        But for requirements that nobody stated and whose part the design has another of: in a file
+        they would ask for what it is not.
+        """
+        mapping = dump(self)
+        for key in _defaults_it_does_not_have(self):
+            mapping["requirements"].pop(key)
+        return mapping
 
     def replacing(self, changes: Mapping[str, Any]) -> Design:
         """A design in which the given dotted keys have new values (SI floats or unit strings).
@@ -337,7 +380,7 @@ class Design(FrozenModel):
     def sha256(self) -> str:
         """Hash of the resolved design: equal designs, equal hash, whatever the file looks like."""
         log = self.requirements.duty_log
-        mapping = self.to_mapping() | ({} if log is None else {"duty_digest": log.digest})
+        mapping = dump(self) | ({} if log is None else {"duty_digest": log.digest})
         text = json.dumps(mapping, sort_keys=True, ensure_ascii=False)
         return hashlib.sha256(text.encode()).hexdigest()
 

@@ -35,7 +35,7 @@ from cqdd_design.catalog.motors import (
 )
 from cqdd_design.design.fields import FreeText, FrozenModel, MotorName, Whole, default
 from cqdd_design.design.problems import describe_problems
-from cqdd_design.errors import CatalogError, DesignError
+from cqdd_design.errors import CatalogError, DesignError, shown
 from cqdd_design.files import parse_toml, read_text_file, refuse_extremes
 from cqdd_design.units import (
     CURRENT,
@@ -371,7 +371,7 @@ class MotorFile(MotorData):
 
 
 def read_motor(path: Path) -> MotorFile:
-    """Read a motor file.
+    """Read a motor file: the keys alone, or under ``[motor]`` as in a design.
 
     Raises
     ------
@@ -382,6 +382,20 @@ def read_motor(path: Path) -> MotorFile:
         motor has, or a torque constant and a speed constant.
     """
     content = parse_toml(read_text_file(path, _MOST_BYTES), path, wrong=DesignError)
+    table = content.get("motor")
+    if isinstance(table, dict):
+        others = ", ".join(shown(key) for key in content if key != "motor")
+        if others:
+            raise DesignError(
+                f"{path} is no motor file: beside [motor] it has {others}. A motor file has the "
+                "keys of a motor alone, with or without [motor] above them."
+            )
+        content = dict(table)
+    if drivers := " or ".join(key for key in SUPPLY if key in content):
+        raise DesignError(
+            f"{path}: no motor file has {drivers}; the driver's supply and limit stand in [motor] "
+            "of the design."
+        )
     content.setdefault("name", path.stem)
     return MotorFile.from_mapping(content, source=str(path), place=path.name)
 

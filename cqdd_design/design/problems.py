@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
@@ -40,6 +41,11 @@ def describe_problems(error: ValidationError, model: type[BaseModel], source: st
     sentences = [_sentence(item, model) for item in found[:_MOST_SHOWN]]
     if len(found) > _MOST_SHOWN:
         sentences.append(f"and {len(found) - _MOST_SHOWN} more problems")
+    return listed(sentences, source)
+
+
+def listed(sentences: Sequence[str], source: str) -> DesignError:
+    """One `DesignError` that tells sentences, each without its last stop, about a file."""
     if len(sentences) == 1:
         return DesignError(f"{source}: {sentences[0]}.")
     return DesignError(f"{source}:\n" + "\n".join(f"  - {text}." for text in sentences))

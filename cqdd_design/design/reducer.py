@@ -20,8 +20,8 @@ from cqdd_design.catalog.screws import LEAST_COLUMN
 from cqdd_design.design.fields import (
     BearingName,
     FinishName,
-    FreeText,
     FrozenModel,
+    LubricantName,
     MaterialName,
     Share,
     ShareOr,
@@ -221,7 +221,7 @@ class ReducerFriction(FrozenModel):
 
     tooth: _Friction = "film"
     pin: _Friction = "film"
-    lubricant: FreeText = "NLGI 2 grease"
+    lubricant: LubricantName = "NLGI 2 grease"
     seals: Literal["none", "contact"] = "none"
 
 

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import ValidationError
 
-from cqdd_design.design.model import SCHEMA_VERSION, Design
+from cqdd_design.design.model import SCHEMA_VERSION, Design, parts_not_asked_for
 from cqdd_design.design.motor import MotorFile, motor_of_requirements, supply_of_requirements
-from cqdd_design.design.problems import describe_problems
+from cqdd_design.design.problems import describe_problems, listed
 from cqdd_design.design.requirements import Requirements
 from cqdd_design.errors import DesignError, UsageError, nearest_names
 from cqdd_design.files import (
@@ -49,6 +49,9 @@ def design_of_text(text: str, path: Path) -> Design:
 def _design(data: dict[str, Any], path: Path) -> Design:
     data.setdefault("name", path.stem)
     design = Design.from_mapping(_migrated(data, path), source=str(path))
+    # Of a file alone: whoever gives a command another motor means that one.
+    if others := parts_not_asked_for(design):
+        raise listed(others, str(path))
     log = _duty(design.requirements, path.parent)
     return design if log is None else design.with_duty_log(log)
 

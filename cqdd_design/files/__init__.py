@@ -5,6 +5,7 @@ from cqdd_design.files.parsing import parse_json, parse_toml, refuse_extremes
 from cqdd_design.files.reading import open_regular_file, read_regular_file, read_text_file
 from cqdd_design.files.writing import (
     WrittenFile,
+    ascii_text,
     atomic_path,
     describe_file,
     ensure_folder,
@@ -15,6 +16,7 @@ from cqdd_design.files.writing import (
 
 __all__ = [
     "WrittenFile",
+    "ascii_text",
     "atomic_path",
     "describe_file",
     "ensure_folder",

@@ -8,12 +8,31 @@ import hashlib
 import os
 import stat
 import tempfile
+import unicodedata
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from cqdd_design.errors import UsageError
 from cqdd_design.files.reading import irregular
+
+_SPELT = str.maketrans(
+    {"ä": "ae", "ö": "oe", "ü": "ue", "Ä": "Ae", "Ö": "Oe", "Ü": "Ue", "ß": "ss", "ẞ": "SS"}
+)
+
+
+def ascii_text(text: str) -> str:
+    """Text for a file that is plain ASCII: umlauts spelt out, other accents left out, else '?'.
+
+    Examples
+    --------
+    >>> ascii_text("Knie größe, épaule, 膝")
+    'Knie groesse, epaule, ?'
+    """
+    spelt = unicodedata.normalize("NFC", text).translate(_SPELT)
+    letters = unicodedata.normalize("NFKD", spelt)
+    bare = "".join(c for c in letters if not unicodedata.combining(c))
+    return bare.encode("ascii", "replace").decode("ascii")
 
 
 @dataclass(frozen=True)

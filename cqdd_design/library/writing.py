@@ -209,7 +209,7 @@ def report(
     out: PathLike | None = None,
     seed: int | None = None,
     calibration: CalibrationLike | None = None,
-    format: str = "html",
+    format: Literal["html", "pdf"] | None = None,
     force: bool = False,
     progress: Callable[[str], None] | None = None,
 ) -> Reported:
@@ -226,8 +226,8 @@ def report(
         Of the simulated gearbox; default perfect parts.
     calibration : path or Calibrated, optional
         Fitted factors to apply.
-    format : {"html", "pdf"}
-        The page, or its print by a browser of the Chromium family.
+    format : {"html", "pdf"}, optional
+        The page, or its print by a browser of the Chromium family; default as `out` ends, or html.
     force : bool
         Replace a file that was named.
     progress : callable, optional
@@ -241,7 +241,7 @@ def report(
     Raises
     ------
     UsageError
-        The file exists, or cannot be written.
+        The file exists, cannot be written, or ends otherwise than a report of this format.
     DesignError, GeometryError
         No valid design, or a shape that cannot exist.
     DependencyError
@@ -263,14 +263,16 @@ def report(
     from cqdd_design.roads.report import report_form, write_report
     from cqdd_design.roads.telling import silent
 
+    path = None if out is None else path_of("out", out)
+    form = report_form(format, path)
     loaded = design_of(design)
     specimen, told = specimen_given(loaded, seed, calibration)
     found = write_report(
         loaded,
-        None if out is None else path_of("out", out),
+        path,
         specimen=specimen,
         source=source_of(design),
-        form=report_form(text("format", format, "html")),
+        form=form,
         force=force,
         progress=progress or silent,
     )

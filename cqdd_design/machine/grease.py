@@ -48,7 +48,7 @@ def grease_fill(machine: Machine) -> GreaseFill:
     GeometryError
         When the parts cannot be put together.
     """
-    lubricant, _ = find_lubricant(machine.design.reducer.friction.lubricant)
+    lubricant = find_lubricant(machine.design.reducer.friction.lubricant)
     return GreaseFill(lubricant, _free_space(machine))
 
 

@@ -106,7 +106,7 @@ class Machine:
         if self.temperatures is None:
             return ()
         parts = self.temperatures.beyond(self.design)
-        lubricant, _ = find_lubricant(self.design.reducer.friction.lubricant)
+        lubricant = find_lubricant(self.design.reducer.friction.lubricant)
         here, taken = self._between_ring_and_disc, self.lubricant_temperature
         if here == taken:
             return parts
@@ -130,7 +130,7 @@ class Machine:
 
         40 deg C where parts are as drawn: the temperature of the printed viscosities.
         """
-        lubricant, _ = find_lubricant(self.design.reducer.friction.lubricant)
+        lubricant = find_lubricant(self.design.reducer.friction.lubricant)
         return min(max(self._between_ring_and_disc, lubricant.coldest), lubricant.hottest)
 
     def changed(self, changes: Mapping[str, Any]) -> Machine:

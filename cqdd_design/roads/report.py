@@ -47,13 +47,31 @@ _CLEARANCE_SAMPLES, _LEAST_CLEARANCE_SAMPLES = 12, 8
 _REPORT_ANGLES = 1000
 
 
-def report_form(text: str) -> ReportForm:
-    """One of the forms; a UsageError for anything else."""
+def report_form(text: str | None, path: Path | None) -> ReportForm:
+    """The form asked for, by its name or by how a file is called; without either a page.
+
+    Raises
+    ------
+    UsageError
+        For another form, a file that ends otherwise, and two that contradict each other.
+    """
     forms: tuple[ReportForm, ...] = get_args(ReportForm)
-    for known in forms:
-        if text == known:
-            return known
-    raise UsageError(f"--format {shown(text)}: a report is html or pdf.")
+    asked = next((form for form in forms if form == text), None)
+    if text is not None and asked is None:
+        raise UsageError(f"--format {shown(text)}: a report is html or pdf.")
+    if path is None:
+        return asked or "html"
+    ending = path.suffix.lower()
+    named = next((form for form in forms if ending == f".{form}"), None)
+    nearest = path.parent / f"{path.stem or 'report'}.{asked or 'html'}"
+    if named is None:
+        raise UsageError(f"{path} ends neither in .html nor in .pdf; name it {nearest}.")
+    if asked not in (None, named):
+        raise UsageError(
+            f"--format {asked} does not go into {path}, which ends in {ending}; name it {nearest}, "
+            "or leave --format out."
+        )
+    return named
 
 
 class WrittenReport(NamedTuple):

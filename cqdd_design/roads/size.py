@@ -354,7 +354,7 @@ def _origins(road: Road) -> dict[str, str]:
             remarks[key] = "assumed" if key.partition(".")[2] in derived else "given"
         elif key in _TAKEN_OVER:
             wanted = _TAKEN_OVER[key]
-            stated = f"requirements.{wanted}" not in design.assumed
+            stated = wanted in design.requirements.model_fields_set
             usual = "sized" if wanted in chosen else "assumed"
             remarks[key] = "given" if stated else usual
         elif key.startswith("reducer."):

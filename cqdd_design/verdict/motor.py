@@ -9,13 +9,21 @@ from dataclasses import replace
 from cqdd_design.actuator.demands import Demand, demands
 from cqdd_design.actuator.duty_points import DutyPoints, duty_points
 from cqdd_design.actuator.motor import torque_constant_at
-from cqdd_design.actuator.operating import envelope_torque, held_torque
+from cqdd_design.actuator.operating import (
+    DRIVER,
+    PEAK,
+    VOLTAGE,
+    envelope_torque,
+    held_torque,
+    judge,
+    output_torque,
+)
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Requirements
 from cqdd_design.errors import DesignError
 from cqdd_design.gearbox.checks.state import build_check
-from cqdd_design.geometry.limits import rounded_down
+from cqdd_design.geometry.limits import rounded_down, rounded_up
 from cqdd_design.machine import Machine
 from cqdd_design.results import Check
 from cqdd_design.solids.motor_rules import is_inrunner, undrawn_sizes
@@ -23,6 +31,13 @@ from cqdd_design.solids.motor_rules import is_inrunner, undrawn_sizes
 MODEL = "operating points of the simulated actuator"
 _RPM = 30.0 / math.pi
 _HALVINGS = 50
+_RAISED = {
+    VOLTAGE: "motor.voltage to about {:g} V",
+    DRIVER: "motor.current_limit (and requirements.current where it is stated) to about {:g} A",
+}
+"""What to raise where it binds."""
+_MOST_RAISED = 10.0
+"""Above so many times what there is it is no cure."""
 _FIGURES = (
     ("peak_torque", "peak torque"),
     ("bore_diameter", "stator bore"),
@@ -80,7 +95,8 @@ def _unknown(check_id: str, asked: Requirements, why: str) -> Check:
         "MOTOR-CONTINUOUS": asked.continuous_torque,
         "MOTOR-SPEED": asked.input_speed * _RPM,
     }[check_id]
-    return build_check(check_id, None, limit, why, "see why it cannot be simulated", model=MODEL)
+    told = why.removesuffix(".")
+    return build_check(check_id, None, limit, told, "see why it cannot be simulated", model=MODEL)
 
 
 def _data(motor: Motor) -> tuple[Check, ...]:
@@ -140,18 +156,33 @@ def _continuous(
 def _speed(actuator: ActuatorParameters, asked: Requirements) -> Check:
     # Where the continuous torque has a speed of its own, it is judged there.
     torque = asked.continuous_torque if asked.continuous_speed is None else 0.0
-    fastest = _fastest(actuator, torque)
-    share = asked.input_speed / fastest if fastest > 0.0 else math.inf
-    volts = actuator.drive.supply_voltage
-    cures = [f"raise motor.voltage to about {volts * share:.3g} V"] if share < 10.0 else []
+    fastest, drive = _fastest(actuator, torque), actuator.drive
+    # What is not even driven at a standstill has to get there first.
+    speeds = (asked.input_speed,) if fastest > 0.0 else (0.0, asked.input_speed)
+    at = [speed / abs(actuator.gear.ratio) for speed in speeds]
+    points = [judge(actuator, torque, speed, lasting=False, hot=True) for speed in at]
+    binding = list(dict.fromkeys(name for point in points for name in point.binding))
+    needs = {
+        VOLTAGE: (max(point.need.voltage for point in points), drive.supply_voltage),
+        DRIVER: (max(point.need.current for point in points), drive.current_limit),
+    }
+    raised = [
+        _RAISED[name].format(rounded_up(needed))
+        for name, (needed, there) in needs.items()
+        if name in binding and needed < _MOST_RAISED * there
+    ]
+    cures = ["raise " + " and ".join(raised)] if raised and PEAK not in binding else []
     if fastest > 0.0:
         cures.append(f"lower requirements.input_speed to {rounded_down(fastest * _RPM):g} rpm")
+    if PEAK in binding or not cures:
+        cures.append("take a stronger motor or more ratio")
     return build_check(
         "MOTOR-SPEED",
         fastest * _RPM,
         asked.input_speed * _RPM,
-        f"{volts:g} V drive {torque:g} N*m up to {fastest * _RPM:.0f} rpm, winding hot",
-        ", or ".join(cures) or "take a stronger motor or more ratio",
+        f"{torque:g} N*m up to {fastest * _RPM:.0f} rpm on {drive.supply_voltage:g} V and "
+        f"{drive.current_limit:g} A, winding hot; binding: {', '.join(binding) or 'nothing'}",
+        ", or ".join(cures),
         model=MODEL,
     )
 
@@ -164,9 +195,13 @@ def _lower(key: str, most: float) -> str:
 def _fastest(actuator: ActuatorParameters, torque: float) -> float:
     """Fastest motor speed at which a torque at the output (N m) is driven, rad/s; 0 if at none."""
     n, hot = abs(actuator.gear.ratio), actuator.thermal.most
+    strongest = actuator.motor.peak_torque
 
     def driven(speed: float) -> bool:
-        return float(envelope_torque(actuator, speed / n, hot)[0]) >= torque
+        most = float(envelope_torque(actuator, speed / n, hot)[0])
+        if math.isfinite(strongest):
+            most = min(most, float(output_torque(actuator, strongest, speed / n)))
+        return most >= torque
 
     # Warm magnets turn faster: the speed at which their EMF is the whole supply.
     constant = float(torque_constant_at(actuator.motor, hot))

@@ -95,15 +95,15 @@ def test_pipe_that_nobody_writes_to(cqdd, tmp_path):
     [
         ("check", "DESIGN"),
         ("size", "--ratio", "10", "--requirements", "DESIGN"),
-        ("report", "paper", "--out", "DESIGN"),
+        ("report", "paper", "--out", "PAGE"),
         ("torque", "evaluate", "--data", "DESIGN", "--model", "a.npz"),
     ],
 )
 def test_name_that_no_file_system_takes(cqdd, paper_design_file, arguments):
-    names = {"DESIGN": 400 * "9", "paper": paper_design_file}
+    names = {"DESIGN": 400 * "9", "PAGE": f"{400 * '9'}.html", "paper": paper_design_file}
     done = cqdd(*(names.get(word, word) for word in arguments), timeout=60.0)
     assert done.code == 2
-    assert "999: File name too long" in done.err.replace("...", "")
+    assert re.search(r"999(\.html)?: File name too long", done.err.replace("...", ""))
 
 
 def test_force_replaces_no_pipe(cqdd, tmp_path, paper_design_file):

@@ -242,6 +242,11 @@ def test_explain_tells_rule_reason_and_source(cqdd):
         assert said in done.out
 
 
+def test_explain_tells_where_a_violation_only_warns(cqdd):
+    told = " ".join(cqdd("explain", "SPACE-DIAMETER").out.split())
+    assert "`check`; only a warning where requirements.outer_diameter is not stated" in told
+
+
 def test_explain_near_miss(cqdd):
     done = cqdd("explain", "CONTACT-RNG-PEAK")
     assert done.code == 2

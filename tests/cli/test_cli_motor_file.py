@@ -131,6 +131,25 @@ def test_the_option_goes_over_the_table_and_that_over_the_catalogue(
     assert found["based_on"] == "CubeMars RO80 KV105"
 
 
+def test_the_keys_may_stand_under_motor_in_the_file(cqdd, tmp_path, paper_design_file, motor_file):
+    option = ("--motor-file", motor_file)
+    alone, _ = motor_of(cqdd, tmp_path, paper_design_file, *option)
+    motor_file.write_text(f"[motor]\n{SMALL}")
+    assert motor_of(cqdd, tmp_path, paper_design_file, *option)[0] == alone
+    for text, says in (
+        (f"[motor]\n{SMALL}[drive]\nencoder_bits = 14\n", "beside [motor] it has 'drive'"),
+        (f'[motor]\n{SMALL}voltage = "48 V"\n', "no motor file has voltage; the driver's supply"),
+        (
+            f'{SMALL}current_limit = "9 A"\nvoltage = "9 V"\n',
+            "no motor file has voltage or current_limit",
+        ),
+    ):
+        motor_file.write_text(text)
+        done = cqdd("check", paper_design_file, *option)
+        assert done.code == 3
+        assert says in done.err
+
+
 def test_a_motor_of_its_own_leaves_what_it_does_not_say_unknown(cqdd, paper_design_file, tmp_path):
     own = tmp_path / "own.toml"
     own.write_text(WINDING)

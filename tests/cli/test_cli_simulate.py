@@ -6,6 +6,7 @@ import io
 import json
 import math
 import os
+import re
 import shlex
 import sys
 from pathlib import Path
@@ -29,6 +30,23 @@ def columns(path: Path) -> dict[str, np.ndarray]:
 
 
 # Processes --------------------------------------------------------------------------------------
+
+
+def test_a_record_too_coarse_for_its_signal_says_so(cqdd, tmp_path):
+    words = (
+        *("simulate", DESIGN, "--signal", "sine", "--frequency", "1000 Hz"),
+        *("--amplitude", "40 N*m", "--duration", "50 ms", "--load", "locked", "--force"),
+    )
+    coarse = cqdd(*words, "--out", "a.npz")
+    assert coarse.code == 0, coarse.err
+    warned = " ".join(coarse.err.split())
+    assert "swings at up to 1000 Hz, and 1000 records a second show no more than 500 Hz" in warned
+    assert "current, r.m.s. of the records" in coarse.out
+    (named,) = re.findall(r"raise the rate to (\d+ Hz)", warned)
+    fine = cqdd(*words, "--out", "b.npz", "--rate", named)
+    assert "records a second" not in fine.err
+    assert "of the records" not in fine.out
+    assert "current, r.m.s." in fine.out
 
 
 def test_a_pendulum_held_at_rest_weighs_what_it_weighs(cqdd, tmp_path):

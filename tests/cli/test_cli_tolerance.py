@@ -212,7 +212,8 @@ def test_interference_is_told_as_preload(cqdd, tmp_path: Path) -> None:
     assert done.code == 0, done.err
     document = json.loads(done.out)
     assert document["results"]["contact"]["preload"]["ring_force_max_N"] > 100.0
-    assert document["results"]["precision"]["backlash_arcmin"] == 0.0
+    # The teeth are pressed; the pins keep some of their play.
+    assert 0.5 < document["results"]["precision"]["backlash_arcmin"] < 3.0
     assert any("preloaded" in sentence for sentence in document["warnings"])
 
 

@@ -224,9 +224,28 @@ def test_without_a_browser_a_pdf_is_refused_before_anything_is_computed(
     assert done.code == 5
     assert "apt-get install -y chromium" in done.err
     assert not (tmp_path / "reports").exists()
-    done = cqdd("report", paper_design_file, "--format", "docx")
+    done = cqdd(
+        "report", paper_design_file, "--out", "page.pdf", environment={"PATH": str(tmp_path)}
+    )
+    assert done.code == 5, "the ending asks for a print"
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (("--format", "docx"), "a report is html or pdf"),
+        (("--out", "page.txt"), "page.txt ends neither in .html nor in .pdf; name it page.html"),
+        (("--out", "page"), "name it page.html"),
+        (("--out", "page.html", "--format", "pdf"), "name it page.pdf, or leave --format out"),
+        (("--out", "page.PDF", "--format", "html"), "name it page.html, or leave --format out"),
+    ],
+)
+def test_a_report_is_called_as_what_it_is(
+    cqdd: Callable[..., Any], paper_design_file: Path, words: tuple[str, ...], says: str
+) -> None:
+    done = cqdd("report", paper_design_file, *words)
     assert done.code == 2
-    assert "html or pdf" in done.err
+    assert says in done.err
 
 
 def _draws_cleanly(page: str, folder: Path) -> None:

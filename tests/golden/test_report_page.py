@@ -203,7 +203,8 @@ def test_dimensions_are_those_of_the_design(page: str) -> None:
 
 def test_text_of_the_design_cannot_become_markup(paper_input: ReportInput) -> None:
     mapping = paper_input.design.to_mapping()
-    mapping["reducer"]["friction"]["lubricant"] = "<script>alert('grease')</script>"
+    named = mapping["motor"]["name"]
+    mapping["motor"] |= {"name": "<script>alert('motor')</script>", "based_on": named}
     design = Design.from_mapping(mapping)
     comments = {"reducer.eccentricity": "assumed: <img src=x onerror=alert(1)> & more"}
     page = build_report(

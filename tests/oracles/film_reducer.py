@@ -44,7 +44,7 @@ class FilmReducer:
         self.torque = 750.0 / self.speed * self.n
         period = kinematics.mesh_period(self.n, self.pins)
         self.angle = period / 704 * np.arange(704)
-        oil, _ = find_lubricant("ISO VG 150 oil")
+        oil = find_lubricant("ISO VG 150 oil")
         ground = find_finish("ground")
         self.law = FilmLaw(
             viscosity=oil.viscosity_at(temperature) * oil.density,

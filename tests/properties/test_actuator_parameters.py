@@ -268,6 +268,18 @@ def test_preload_is_friction_without_load() -> None:
     assert friction.motor_coulomb > 2.0 * usual.motor_coulomb
 
 
+def test_a_gearbox_that_binds_is_refused_in_the_words_of_its_design() -> None:
+    """Its friction falls under load, which no share of the torque carried describes."""
+    design = load_design(Path(__file__).resolve().parents[2] / "designs" / "reference-s.toml")
+    bound = resolve(design.replacing({"reducer.output_pins.hole_clearance": "-50 um"}))
+    with pytest.raises(DesignError) as caught:
+        actuator_parameters(bound)
+    said = caught.value.message
+    assert "the gearbox binds: with output_pins.hole_clearance -50 um" in said
+    assert "raise output_pins.hole_clearance to 15 um, or more" in said
+    assert "load_backward" not in said
+
+
 def test_simulated_backdrive_is_that_of_the_losses() -> None:
     one = built()
     scene = Scenario(Command("open"), Load.driven(Constant(0.5)), Start(motor_angle=0.0))

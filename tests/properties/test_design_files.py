@@ -1,5 +1,6 @@
 """Design files: round trips, comments, bounds, and what is said about mistakes."""
 
+import json
 import math
 from pathlib import Path
 
@@ -129,6 +130,7 @@ def test_new_file_leaves_assumed_keys_out(tmp_path):
         ({**reducer(), "name": "a\ud800b"}, "part of file names"),
         ({**reducer(), "name": "a" * 201}, "200 bytes at most"),
         (reducer(friction={"lubricant": "oil\u202e"}), "control or direction character"),
+        (reducer(friction={"lubricant": "SKF LGLT2"}), "the nearest are 'SKF LGLT 2'"),
         (reducer(ratio=10**400), "reducer.ratio is a whole number of 401 digits"),
         (reducer(ratio=-(10**5000)), "reducer.ratio is a whole number of 5001 digits"),
         (reducer(output_pins={"count": 2**70}), "reducer.output_pins.count is 1180591620717411"),
@@ -147,6 +149,48 @@ def test_mistakes_are_named_with_their_fix(data, says):
         Design.from_mapping(data, source="mine.toml")
     assert says in str(caught.value)
     assert "mine.toml" in str(caught.value)
+
+
+ASKED = {
+    "motor": ("motor.name", "CubeMars RO80 KV105", "CubeMars RO100 Lite KV55"),
+    "disc_count": ("reducer.disc_count", 3, 2),
+    "disc_material": ("reducer.disc_material", "7075-T6", "AISI 4140 Q&T 540C"),
+    "ring_material": ("reducer.ring_material", "7075-T6", "AISI 4140 Q&T 540C"),
+    "pin_material": (
+        "reducer.output_pins.material",
+        "7075-T6",
+        "18-8 shoulder screw (seed-consistent)",
+    ),
+}
+
+
+@pytest.mark.parametrize("key", ASKED)
+def test_a_file_whose_parts_are_not_those_it_asks_for_is_refused(tmp_path, key):
+    place, other, own = ASKED[key]
+    path, text = tmp_path / "a.toml", PAPER.read_text()
+    for asked in (other, own):
+        stated = f"[requirements]\n{key} = {json.dumps(asked)}\n"
+        path.write_text(text.replace("[requirements]\n", stated))
+        if asked == own:
+            assert getattr(load_design(path).requirements, key) == own
+            continue
+        with pytest.raises(DesignError) as caught:
+            load_design(path)
+        assert str(caught.value) == (
+            f"{path}: requirements.{key} {other!r} is not {place} {own!r}; make them equal or "
+            f"leave requirements.{key} out."
+        )
+
+
+def test_a_motor_of_its_own_is_the_one_it_is_based_on(tmp_path):
+    path = tmp_path / "a.toml"
+    named = 'name = "CubeMars RO100 Lite KV55"'
+    text = PAPER.read_text().replace("[requirements]\n", f"[requirements]\nmotor{named[4:]}\n")
+    path.write_text(text.replace(f"\n{named}", f'\nname = "rewound"\nbased_on{named[4:]}'))
+    design = load_design(path)
+    assert design.motor.name == "rewound"
+    # Another motor, of whoever takes the design on, is no contradiction within a file.
+    assert design.with_motor("CubeMars RO80 KV105").motor.name == "CubeMars RO80 KV105"
 
 
 def test_continuous_above_peak_is_refused():

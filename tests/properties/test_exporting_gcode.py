@@ -223,6 +223,13 @@ def test_holes_come_first_and_the_wire_is_cut_between(text):
     assert all(line.count("(") == line.count(")") <= 1 for line in text.splitlines())
 
 
+def test_names_with_umlauts_are_spelt_out(text, paper, parts):
+    named = program(parts[0], paper.replacing({"name": "Knie Größe Ωé"}))
+    assert "KNIE GROESSE ?E" in named
+    assert named.isascii()
+    assert list(_blocks(named)) == list(_blocks(text))
+
+
 def test_a_seat_has_offsets_of_its_own(text, paper, parts):
     (note,) = re.findall(r"\((11 AND ON FOR INNER CONTOUR 1[^)]*)\)", text)
     assert "28 N7" in note

@@ -480,7 +480,7 @@ def test_warm_parts_warm_the_film_as_far_as_the_lubricant_works(
 
 @pytest.mark.parametrize("name", lubricants())
 def test_viscosity_meets_both_printed_figures_and_falls_with_temperature(name: str) -> None:
-    one, _ = find_lubricant(name)
+    one = find_lubricant(name)
     assert one.viscosity_at(40.0) == pytest.approx(one.viscosity, rel=1e-12)
     assert walther_viscosity(100.0, one.viscosity, one.hot_viscosity) == pytest.approx(
         one.hot_viscosity, rel=1e-12
@@ -490,7 +490,7 @@ def test_viscosity_meets_both_printed_figures_and_falls_with_temperature(name: s
 
 
 def test_oils_between_the_rows_lie_between_them() -> None:
-    hot = [find_lubricant(f"ISO VG {g} oil")[0].hot_viscosity for g in (15, 22, 130, 150, 1000)]
+    hot = [find_lubricant(f"ISO VG {g} oil").hot_viscosity for g in (15, 22, 130, 150, 1000)]
     assert np.all(np.diff(hot) > 0.0)
 
 

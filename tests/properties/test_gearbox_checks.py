@@ -37,6 +37,7 @@ from cqdd_design.gearbox.checks import (
     guide_retention,
     guide_shaft,
 )
+from cqdd_design.gearbox.checks.equilibrium import PeakLoads, lasting_checks, peak_checks
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 from cqdd_design.geometry.cycloid import CycloidDisc
@@ -288,6 +289,40 @@ def test_the_torque_named_is_the_most_that_passes(check_id: str, key: str) -> No
     assert changed(changes, PAPER)[check_id].status == "pass"
     changes[f"requirements.{key}"] = 1.02 * torque
     assert changed(changes, PAPER)[check_id].status != "pass"
+
+
+@pytest.mark.parametrize(
+    ("changes", "says"),
+    [
+        ({"reducer.output_pins.support": "cantilever"}, "hold the pins at both ends"),
+        ({"reducer.carrier.joint": "hinged"}, "clamp them in the cap too"),
+        ({"reducer.carrier.joint": "clamped"}, None),
+    ],
+)
+def test_pins_are_to_be_held_better_only_where_they_can_be(
+    changes: dict[str, Any], says: str | None
+) -> None:
+    design = load_design(Path(__file__).resolve().parents[2] / "designs" / "reference-s.toml")
+    weak = {"reducer.output_pins.material": "18-8 shoulder screw (seed-consistent)"}
+    machine = resolve(design.replacing({**changes, **weak}))
+    peak = design.requirements.peak_torque
+    loads = PeakLoads.of(peak, machine.loaded_contacts.greatest(peak))
+    checks = (
+        *peak_checks(machine.analysis, loads),
+        *lasting_checks(machine.analysis, machine.life),
+    )
+    lines = {one.id: one for one in checks}
+    for name in ("PIN-BENDING-PEAK", "PIN-BENDING-CONTINUOUS"):
+        for words in ("hold the pins at both ends", "clamp them in the cap too"):
+            assert (words in lines[name].remedy) == (words == says), name
+
+
+def test_space_that_nobody_stated_only_warns_as_the_guide_says() -> None:
+    wide: dict[str, Any] = {"reducer.ring.outer_diameter": "73 mm"}
+    assert changed(wide, PAPER)["SPACE-DIAMETER"].status == "warn"
+    wide["requirements.outer_diameter"] = "72 mm"
+    assert changed(wide, PAPER)["SPACE-DIAMETER"].status == "fail"
+    assert "requirements.outer_diameter" in CHECK_GUIDE["SPACE-DIAMETER"].exception
 
 
 def test_thicker_pins_named_by_the_remedy_pass_in_bending() -> None:

@@ -22,7 +22,7 @@ from solids_designs import machines
 
 from cqdd_design.catalog.lubricants import find_lubricant
 from cqdd_design.design import Design, load_design
-from cqdd_design.errors import UsageError
+from cqdd_design.errors import CatalogError, DesignError, UsageError
 from cqdd_design.gearbox import rigid
 from cqdd_design.gearbox.contact.laws import CamSpring
 from cqdd_design.gearbox.contact.model import ContactModel
@@ -364,18 +364,25 @@ def test_drag_branches_meet() -> None:
 
 
 @pytest.mark.parametrize("name", ["moon dust", "", "NLGI 7 grease", "ISO VG 1 oil"])
-def test_unknown_lubricant_takes_the_default_and_says_so(name: str) -> None:
-    known, warning = find_lubricant(name)
-    assert known.name == "NLGI 2 grease"
-    assert warning is not None
-    assert "friction.lubricant" in warning
-    found = model_of((("reducer.friction.lubricant", name),)).at(SPEED, 40.0)
-    assert warning in found.warnings
-    assert found.total == model_of().at(SPEED, 40.0).total
+def test_an_unknown_lubricant_is_refused(name: str) -> None:
+    with pytest.raises(CatalogError, match=f"no lubricant '{name}'"):
+        find_lubricant(name)
+    with pytest.raises(DesignError, match=r"friction\.lubricant = .*to .ISO VG 3200 oil"):
+        model_of((("reducer.friction.lubricant", name),))
+
+
+@pytest.mark.parametrize(
+    ("spelling", "name"),
+    [("nlgi 2", "NLGI 2 grease"), ("skf  LGLT 2", "SKF LGLT 2"), ("ISO VG 130", "ISO VG 130 oil")],
+)
+def test_a_lubricant_is_called_as_the_catalogue_calls_it(spelling: str, name: str) -> None:
+    assert find_lubricant(spelling).name == name
+    design = PAPER.replacing({"reducer.friction.lubricant": spelling})
+    assert design.reducer.friction.lubricant == name
 
 
 def test_stiffer_grease_and_thicker_oil_drag_more() -> None:
-    stresses = [find_lubricant(f"NLGI {g} grease")[0].yield_stress for g in ("00", "0", "1", "2")]
+    stresses = [find_lubricant(f"NLGI {g} grease").yield_stress for g in ("00", "0", "1", "2")]
     assert all(a < b for a, b in pairwise(stresses))
     oils = [model_of((("reducer.friction.lubricant", f"ISO VG {g} oil"),)) for g in (32, 100, 460)]
     drags = [m.at(SPEED, 0.0).total for m in oils]

@@ -139,7 +139,7 @@ def test_how_far_the_output_stands_off_is_told() -> None:
 
 @pytest.mark.parametrize(("off", "tight"), [(10e-6, False), (30e-6, True)])
 def test_an_output_off_the_rings_axis_takes_the_backlash(off: float, tight: bool) -> None:
-    """A third at 10 um, and all of it, with micrometres of overlap, at 30."""
+    """A third at 10 um, and all but a little, with micrometres of overlap, at 30."""
     model = ContactModel.from_design(known_design("paper"))
     errors = GearboxErrors.none(model)
     errors.output_axis[0] = off
@@ -147,7 +147,7 @@ def test_an_output_off_the_rings_axis_takes_the_backlash(off: float, tight: bool
     found = backlash(model, output_turn_angles(model, 44), errors=errors)
     assert bool(found.overlap.max() > 5e-6) == tight
     assert (found.free.min() == 0.0) == tight
-    assert found.mean < (0.05 if tight else 0.8) * perfect
+    assert found.mean < (0.07 if tight else 0.8) * perfect
 
 
 def test_counterbores_of_shoulder_screws_are_those_of_din_974() -> None:

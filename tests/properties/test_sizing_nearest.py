@@ -102,8 +102,22 @@ def test_a_length_that_the_verdict_refuses_is_not_told(monkeypatch):
     error, tried = said(monkeypatch, lambda length: length >= 13.2, verdict)
     assert error.length_needed is not None
     assert error.length_needed > 14.2e-3
-    assert all(one[0] > 13.0 for one in tried[2:])
-    assert [one[0] for one in tried[2:]] == sorted(one[0] for one in tried[2:])
+    lengths = [one[0] for one in tried[2:]]
+    assert lengths[0] > 13.0
+    # The most is tried before another length is.
+    assert lengths[1] == max(lengths)
+    assert lengths[0] < lengths[2]
+    assert lengths[2:] == sorted(lengths[2:])
+
+
+def test_where_the_most_does_not_do_no_other_length_is_tried(monkeypatch):
+    def verdict(length, derived):
+        return found(peak_torque=15.0, continuous_torque=5.0) if derived else refused("YIELD")
+
+    error, tried = said(monkeypatch, lambda length: length >= 13.2, verdict)
+    assert error.length_needed is None
+    assert len(tried) == 4
+    assert tried[3][0] > tried[2][0]
 
 
 def test_where_less_torque_does_not_help_neither_does_space(monkeypatch):

@@ -121,6 +121,42 @@ def test_a_speed_at_its_limit_takes_the_whole_voltage(machine: Machine, judged: 
     assert max(volts, amperes) == pytest.approx(1.0, rel=2e-3)
 
 
+@pytest.mark.parametrize(
+    ("changes", "binding", "key", "unit"),
+    [
+        ({"motor.current_limit": "20 A"}, "driver", "current_limit", "A"),
+        ({"motor.voltage": "24 V"}, "voltage", "voltage", "V"),
+    ],
+)
+def test_the_cure_of_the_speed_raises_what_binds(
+    changes: dict[str, str], binding: str, key: str, unit: str
+) -> None:
+    def line(design: Design) -> Check:
+        machine = resolve(design)
+        return by_id(motor_lines(machine, actuator_parameters(machine), ""))["MOTOR-SPEED"]
+
+    weak = load_design(DESIGNS / "reference-s.toml").replacing(changes)
+    found = line(weak)
+    assert found.status == "fail"
+    assert found.substituted.endswith(f"binding: {binding}")
+    others = {"motor.current_limit", "motor.voltage"} - {f"motor.{key}"}
+    assert not any(other in found.remedy for other in others)
+    named = re.search(rf"raise motor\.{key}.*? to about ([\d.]+) {unit}", found.remedy)
+    assert named, found.remedy
+    assert line(weak.replacing({f"motor.{key}": f"{named[1]} {unit}"})).status == "pass"
+
+
+def test_more_than_the_motor_itself_gives_is_no_matter_of_the_driver() -> None:
+    design = load_design(DESIGNS / "reference-s.toml").replacing(
+        {"motor.peak_torque": "2 N*m", "motor.based_on": "CubeMars RO100 KV55", "motor.name": "own"}
+    )
+    machine = resolve(design)
+    found = by_id(motor_lines(machine, actuator_parameters(machine), ""))["MOTOR-SPEED"]
+    assert found.value == 0.0
+    assert found.substituted.endswith("binding: motor")
+    assert found.remedy == "take a stronger motor or more ratio"
+
+
 def test_continuous_means_for_ever_at_the_input_speed(machine: Machine, judged: Verdict) -> None:
     slow = machine.design.replacing({"requirements.input_speed": 20.0})
     actuator = actuator_parameters(resolve(slow))

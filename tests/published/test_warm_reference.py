@@ -37,16 +37,20 @@ def test_forty_kelvin_take_half_of_the_backlash(machine: Machine) -> None:
     )
 
 
-def test_sixty_kelvin_leave_none_and_overlap(machine: Machine) -> None:
+def test_sixty_kelvin_press_the_pins_and_leave_the_teeth_a_fifth(machine: Machine) -> None:
+    """The second implementation calls a gearbox whose parts overlap one without backlash."""
     found = warm(machine, PartTemperatures.even(80.0))
-    assert found.mean == 0.0
-    assert found.overlap.max() * 1e6 == pytest.approx(2.9, abs=0.15)
-
-
-def test_discs_twenty_kelvin_above_their_ring_leave_none(machine: Machine) -> None:
-    found = warm(machine, PartTemperatures(disc=40.0))
-    assert found.mean == 0.0
     assert found.preloaded
+    assert found.mean * ARCMIN == pytest.approx(1.07, abs=0.02)
+    assert found.overlap.max() * 1e6 == pytest.approx(2.9, abs=0.15)
+    assert warm(machine, PartTemperatures.even(95.0)).mean == 0.0
+
+
+def test_discs_twenty_kelvin_above_their_ring_press_the_teeth(machine: Machine) -> None:
+    """And leave the pins their play."""
+    found = warm(machine, PartTemperatures(disc=40.0))
+    assert found.preloaded
+    assert found.mean * ARCMIN == pytest.approx(3.54, abs=0.02)
 
 
 @pytest.mark.parametrize("temperature", [-10.0, 60.0, 80.0])

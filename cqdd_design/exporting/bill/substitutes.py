@@ -153,7 +153,7 @@ def longer_screw(machine: Machine, part: str) -> CapScrew | None:
 
 def other_lubricants(machine: Machine) -> tuple[str, ...]:
     """Lubricants of the catalogue that are no thinner, rub no more and bear what its own bears."""
-    own, _ = find_lubricant(machine.design.reducer.friction.lubricant)
+    own = find_lubricant(machine.design.reducer.friction.lubricant)
     return tuple(
         one.name
         for one in lubricants().values()

@@ -52,7 +52,7 @@ from cqdd_design.exporting.edm.wire_path import (
     wire_paths,
 )
 from cqdd_design.exporting.options import DEFAULTS, ExportOptions
-from cqdd_design.files import WrittenFile, write_with
+from cqdd_design.files import WrittenFile, ascii_text, write_with
 from cqdd_design.geometry.contours import Circle
 from cqdd_design.version import __version__
 
@@ -226,8 +226,8 @@ def _register_lines(
 
 def _comments(lines: list[str]) -> list[str]:
     """Comments without inner brackets, which would end them."""
-    cleaned = (line.upper().replace("(", "- ").replace(")", "") for line in lines)
-    return [f"({line.encode('ascii', 'replace').decode('ascii')})" for line in cleaned]
+    cleaned = (ascii_text(line).upper() for line in lines)
+    return [f"({line.replace('(', '- ').replace(')', '')})" for line in cleaned]
 
 
 def _cut(

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from cqdd_design.catalog import find_material
+from cqdd_design.files import ascii_text
 from cqdd_design.solids.features.kinds import fit_label
 from cqdd_design.version import __version__
 
@@ -40,7 +41,7 @@ def _heading(text: str) -> list[str]:
 
 
 def _wrapped(text: str, indent: str = "") -> list[str]:
-    plain = text.encode("ascii", "replace").decode("ascii")
+    plain = ascii_text(text)
     return textwrap.wrap(plain, _WIDTH, initial_indent=indent, subsequent_indent=" " * len(indent))
 
 

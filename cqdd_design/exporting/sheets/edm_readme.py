@@ -21,6 +21,7 @@ from cqdd_design.exporting.edm.passes import (
     minutes,
 )
 from cqdd_design.exporting.edm.wire_path import contour_name, contour_size
+from cqdd_design.files import ascii_text
 from cqdd_design.geometry.columns import has_columns
 from cqdd_design.version import __version__
 
@@ -106,7 +107,7 @@ def readme_text(parts: Sequence[CutFacts], options: ExportOptions) -> str:
         ),
         *_paragraph(f"Design {design.sha256[:16]}, cqdd-design {__version__}."),
     ]
-    return "\n".join(lines).encode("ascii", "replace").decode("ascii") + "\n"
+    return ascii_text("\n".join(lines)) + "\n"
 
 
 def _paragraph(words: str, indent: str = "") -> list[str]:

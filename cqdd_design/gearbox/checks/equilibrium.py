@@ -18,6 +18,7 @@ from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.allowables import Allowable
 from cqdd_design.gearbox.checks.remedies import (
     MaterialRule,
+    better_held,
     harder_parts,
     lower_torque,
     softer_contact,
@@ -288,10 +289,9 @@ def _lasting(
         remedy += harder_parts(pair, rule, worst.stress, spread)
     else:
         share = limit / worst.stress if worst.stress else 0.0
-        remedy = (
-            "take thicker output_pins, or hold them at both ends, or lower the continuous torque "
-            f"to {torque_words(torque * share)}"
-        )
+        ways = ["take thicker output_pins", *better_held(reducer)]
+        ways.append(f"lower the continuous torque to {torque_words(torque * share)}")
+        remedy = ", or ".join(ways)
     return build_check(
         check_id,
         worst.stress / _MEGA,

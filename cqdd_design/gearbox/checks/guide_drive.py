@@ -17,6 +17,8 @@ _SCREENED = (
     f"{100.0 * (limits.REDUCER_EFFICIENCY / _LOW - 1.0):.0f} % more torque."
 )
 
+_ASKED_FOR = "exit code 4 from `check` where reducer.balance.counterweights is true"
+
 ROWS = (
     CheckGuide(
         "BALANCE-STATIC",
@@ -28,6 +30,7 @@ ROWS = (
         "Counted are discs, cam bearings and eccentrics, and balance weights as they are drawn.",
         f"ISO 21940-11, grade G {1e3 * limits.BALANCE_GRADE:g}",
         "warn",
+        exception=_ASKED_FOR,
     ),
     CheckGuide(
         "BALANCE-COUPLE",
@@ -38,6 +41,7 @@ ROWS = (
         "Discs in different planes leave a couple that shakes the shaft's bearings.",
         HOUSE,
         "warn",
+        exception=_ASKED_FOR,
     ),
     CheckGuide(
         "BALANCE-WEIGHTS",
@@ -91,7 +95,8 @@ ROWS = (
         "Motor speed under the continuous torque",
         "rpm",
         "min",
-        "fastest at which the voltage drives the continuous torque, winding hot >= input speed",
+        "fastest at which voltage, driver and motor give the continuous torque, winding hot >= "
+        "input speed",
         "What the winding's resistance takes of the voltage is no speed. The first screen takes "
         "the speed without load, KV U.",
         "motor catalogue",

@@ -42,6 +42,8 @@ class CheckGuide:
         As in :class:`cqdd_design.results.Check`.
     basis : str
         Of a value that no closer model gives.
+    exception : str
+        Where a violation counts otherwise than `severity` says, in words; empty where nowhere.
     """
 
     id: str
@@ -53,3 +55,4 @@ class CheckGuide:
     source: str
     severity: Literal["fail", "warn"] = "fail"
     basis: str = GEOMETRY
+    exception: str = ""

@@ -163,6 +163,7 @@ ROWS = (
         "D_ring <= requirements.outer_diameter",
         "The gearbox has to fit the space asked for.",
         "requirements of the design file",
+        exception="only a warning where requirements.outer_diameter is not stated",
     ),
     CheckGuide(
         "SPACE-LENGTH",
@@ -172,6 +173,7 @@ ROWS = (
         "D b + (D-1) s <= requirements.length",
         "The gearbox has to fit the space asked for.",
         "requirements of the design file",
+        exception="only a warning where requirements.length is not stated",
     ),
     *_WIRES,
 )

@@ -11,6 +11,7 @@ from collections.abc import Callable
 
 from cqdd_design.catalog.materials import Material, materials
 from cqdd_design.catalog.screws import shoulder_screws
+from cqdd_design.design.reducer import Reducer
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.allowables import Allowable
 from cqdd_design.gearbox.checks.state import GearboxState
@@ -131,6 +132,15 @@ def stronger_capacity(state: GearboxState, torque: float, needed: float) -> str:
     return ", or ".join((*_thicker_pins(state, thicker), lower))
 
 
+def better_held(reducer: Reducer) -> list[str]:
+    """How to hold pins so that they bend less; nothing where they are held as well as can be."""
+    if reducer.output_pins.support != "both":
+        return ["hold the pins at both ends (reducer.output_pins.support)"]
+    if reducer.carrier.joint == "hinged":
+        return ["clamp them in the cap too (reducer.carrier.joint)"]
+    return []
+
+
 def stronger_pins(
     state: GearboxState,
     value: float,
@@ -163,10 +173,8 @@ def stronger_pins(
     reach = 2.0 * pins.circle_radius * math.sin(math.pi / count)
     if reach - state.geometry.hole_diameter >= allowables.LIGAMENT:
         words.append(f"use {count} pins of {pins.diameter * 1e3:g} mm")
-    if power == 3 and pins.support != "both":
-        words.append("hold the pins at both ends")
-    elif power == 3 and state.design.reducer.carrier.joint == "hinged":
-        words.append("clamp them in the cap too (reducer.carrier.joint)")
+    if power == 3:
+        words += better_held(state.design.reducer)
     screws = [
         (rule(screw).value, screw.name)
         for screw in materials().values()

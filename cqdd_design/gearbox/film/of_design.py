@@ -86,7 +86,7 @@ def _film(
 ) -> ContactFilm | None:
     if runner is not None and runner.cage is not None:
         return None
-    lubricant, _ = find_lubricant(design.reducer.friction.lubricant)
+    lubricant = find_lubricant(design.reducer.friction.lubricant)
     # What turns on a pin is of its material and made as it is.
     first, second = pair if runner is None else (pair[0], pair[0])
     surfaces = rough if runner is None else (rough[0], rough[0])

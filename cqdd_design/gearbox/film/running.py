@@ -152,7 +152,7 @@ def running(
         That it was solved at.
     """
     speed = design.requirements.held_speed
-    lubricant, _ = find_lubricant(design.reducer.friction.lubricant)
+    lubricant = find_lubricant(design.reducer.friction.lubricant)
     teeth = ring_film(model, states, slip(model, states), sweep.ring_force, speed)
     pins = hole_film(model, sweep.pin_force, speed)
     return Running(

@@ -113,7 +113,6 @@ class FrictionMachine:
     face_gap: float
     needles: Mapping[str, NeedleDrag]
     temperature: float = RUNNING_TEMPERATURE
-    warnings: tuple[str, ...] = ()
 
     @classmethod
     def from_design(
@@ -137,7 +136,6 @@ class FrictionMachine:
         """
         reducer = design.reducer
         cam = find_bearing(reducer.cam_bearing.designation)
-        lubricant, warning = find_lubricant(reducer.friction.lubricant)
         stack = (reducer.disc_count, reducer.disc_thickness, reducer.disc_spacing)
         return cls(
             lobe_count=reducer.ratio,
@@ -151,12 +149,11 @@ class FrictionMachine:
             cam=BearingFriction.of(cam),
             support=support,
             output=output,
-            lubricant=lubricant,
+            lubricant=find_lubricant(reducer.friction.lubricant),
             face_area=disc_moments(design, 0, bore_diameter=cam.outer_diameter).area,
             face_gap=max(reducer.disc_spacing, _LEAST_FILM),
             needles=_needles(design),
             temperature=temperature,
-            warnings=() if warning is None else (warning,),
         )
 
     @property

@@ -258,7 +258,7 @@ class LossModel:
         power = dict(zip(SOURCES, (size * by_source[0, 0]).tolist(), strict=True))
         loss, some = float(grid.loss_torque[0, 0]), torque != 0.0
         back = self.machine.lobe_count * float(driven.sum())
-        warnings = list(self.machine.warnings)
+        warnings = []
         if not some:
             warnings.append("efficiency does not exist at zero torque, where no power passes.")
         elif back >= abs(torque):
