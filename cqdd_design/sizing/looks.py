@@ -91,8 +91,14 @@ def learn(hunt: Hunt, found: Found) -> bool:
     return True
 
 
-def motor_far_short(hunt: Hunt, machine: Machine) -> tuple[Check, ...]:
-    """Lines of stated torques of which the motor is too far short for another gearbox to help."""
+def motor_far_short(hunt: Hunt, machine: Machine, least: float = 0.0) -> tuple[Check, ...]:
+    """Lines of stated torques of which the motor is too far short for another gearbox to help.
+
+    Parameters
+    ----------
+    least : float
+        Margin that they have to have at least, of a gearbox that loses as little as any.
+    """
     free = hunt.requirements.derived
     if free >= {PEAK, CONTINUOUS}:
         return ()
@@ -107,8 +113,8 @@ def motor_far_short(hunt: Hunt, machine: Machine) -> tuple[Check, ...]:
         return ()
     far = []
     for line in lines:
-        torque, least = _FAR_SHORT.get(line.id, (PEAK, 0.0))
-        if line.known and line.margin < least and torque not in free:
+        torque, near = _FAR_SHORT.get(line.id, (PEAK, 0.0))
+        if line.known and line.margin < max(near, least) and torque not in free:
             far.append(line)
     return tuple(far)
 

@@ -48,8 +48,8 @@ _NO_SPACE = (
     "PEAK-AT-SPEED",
 )
 """Beginnings of lines that no more space helps."""
-_DIGITS = 2
-"""Of a peak torque that is told."""
+_DIGITS, _HELD = 2, 0.97
+"""Of torques that are told; share of what a motor was found to hold for ever that is tried."""
 _NO_LOADS = {"BACKLASH", "LOST-MOTION", "STIFFNESS", "SHOCK-STOP", "SURFACE-TEMPERATURE"}
 """Lines of which a search by loads alone does not know how much space they take."""
 _ALONE = {PEAK: {"MOTOR-PEAK"}, CONTINUOUS: {"MOTOR-CONTINUOUS", "THERMAL-RISE"}}
@@ -161,11 +161,18 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
 
 def _less_torque(hunt: Hunt, refusal: SizingInfeasibleError) -> _Way:
     """A search for torques that fit: less of that alone which is short, where that is enough."""
-    asked, most = hunt.requirements, refusal.most_torque
+    asked, most, lasting = hunt.requirements, refusal.most_torque, refusal.most_lasting_torque
     if most is not None and set(refusal.binding) == {"MOTOR-PEAK"}:
         peak = rounded_down(most, _DIGITS)
         if asked.continuous_torque <= peak < asked.peak_torque:
             way = _tried(hunt, asked.unchecked_copy({PEAK: peak}))
+            if way.found is not None:
+                return way
+    if lasting is not None and set(refusal.binding) <= _ALONE[CONTINUOUS]:
+        # Of any gearbox a motor may hold nothing; of that which was judged it holds so much.
+        held = rounded_down(_HELD * lasting, _DIGITS)
+        if 0.0 < held < asked.continuous_torque:
+            way = _tried(hunt, asked.model_copy(update={CONTINUOUS: held}))
             if way.found is not None:
                 return way
     for torque, lines in _ALONE.items():

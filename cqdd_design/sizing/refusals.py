@@ -30,6 +30,8 @@ from cqdd_design.verdict import Verdict
 
 TRIALS = 20
 """Of sizing to the verdict."""
+_MOTOR = frozenset({"MOTOR-PEAK", "MOTOR-CONTINUOUS"})
+"""Lines whose value is a torque that fits."""
 
 
 def nothing(hunt: Hunt) -> SizingInfeasibleError:
@@ -163,9 +165,10 @@ def short_of(short: Sequence[Check]) -> SizingInfeasibleError:
     told = "; ".join(
         f"{line.title.lower()}: {line.substituted} ({line.remedy})" for line in short[:4]
     )
-    motor = [one for one in short if one.id == "MOTOR-PEAK" and one.value]
+    most = {one.id: rounded_down(one.value) for one in short if one.value and one.id in _MOTOR}
     return SizingInfeasibleError(
         f"no design was found that meets everything; the nearest falls short of {told}.",
         binding=tuple(line.id for line in short),
-        most_torque=rounded_down(motor[0].value) if motor and motor[0].value else None,
+        most_torque=most.get("MOTOR-PEAK"),
+        most_lasting_torque=most.get("MOTOR-CONTINUOUS"),
     )

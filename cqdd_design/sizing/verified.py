@@ -16,6 +16,7 @@ from typing import NamedTuple
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Requirements
 from cqdd_design.errors import InfeasibleError
+from cqdd_design.results import Check
 from cqdd_design.sizing.able import CONTINUOUS, PEAK, cooler, first_guess
 from cqdd_design.sizing.bearable import JUST, or_weaker, weaker
 from cqdd_design.sizing.costs import costs
@@ -65,8 +66,15 @@ _GOALS: Mapping[str, Goal] = {
     "LOST-MOTION": "backlash",
     "REFLECTED-INERTIA": "inertia",
     "EFFICIENCY": "efficiency",
+    "MOTOR-CONTINUOUS": "efficiency",
+    HOT: "efficiency",
 }
 """Lines that are asked for, and the goal of a search that meets them if any does."""
+_COOL: Goal = "efficiency"
+_NEARLY_HELD = 0.85
+"""Margin of what a motor holds with a gearbox that loses little, from which that is gone on with."""
+_LASTING = {"MOTOR-CONTINUOUS", HOT}
+"""Lines of which a continuous torque that nobody stated is lowered."""
 _BY_STRENGTH = {"STIFFNESS", "SHOCK-STOP"}
 """Lines that are asked for and that a stronger gearbox meets."""
 _STURDIER = 1.3
@@ -164,7 +172,7 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
     progress("searching by closed forms, held against the contact equilibrium")
     found = or_weaker(hunt, lambda: promising(hunt))
     if found is not None and (far := motor_far_short(hunt, found.sized.machine)):
-        raise short_of(far)
+        found = _cooler_gearbox(hunt, far)
     nearest: Verdict | None = None
     thorough = hunt.any_will_do
     sound: _Sound | None = None
@@ -232,6 +240,27 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
     if nearest is not None:
         raise refused(nearest)
     raise nothing(hunt) if found is None else unsettled(found)
+
+
+def _cooler_gearbox(hunt: Hunt, far: tuple[Check, ...]) -> Found:
+    """A gearbox that loses less, where a motor is far from holding a torque that is stated.
+
+    Near the speed at which its own drag warms a motor to its limit, what it holds hangs on little.
+
+    Raises
+    ------
+    SizingInfeasibleError
+        When the motor is as far from it with that one, or it is a peak torque.
+    """
+    if hunt.goal == _COOL or {line.id for line in far} != {"MOTOR-CONTINUOUS"}:
+        raise short_of(far)
+    hunt.say("searching with efficiency as the objective, for what the motor has to hold")
+    hunt.goal, hunt.pins = _COOL, (False, True) if hunt.may_roll else hunt.pins
+    hunt.tried.add(_COOL)
+    found = promising(hunt)
+    if found is None or motor_far_short(hunt, found.sized.machine, _NEARLY_HELD):
+        raise short_of(far)
+    return found
 
 
 def _less_of_it(hunt: Hunt, found: Found, trial: int) -> Found | None:
@@ -418,6 +447,8 @@ def _turned(hunt: Hunt, found: Found, judged: Verdict) -> bool:
         hunt.sturdier *= _STURDIER
         hunt.say(f"searching for a gearbox with {hunt.sturdier:.3g} times the reserve at the peak")
         return True
+    if failing & _LASTING and CONTINUOUS in hunt.requirements.derived:
+        return False
     goals = [goal for name, goal in _GOALS.items() if name in failing and goal not in hunt.tried]
     if not goals or not failing <= {*_GOALS, "YIELD", *SHAFT} or goals[0] == hunt.goal:
         return False
