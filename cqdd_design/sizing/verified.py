@@ -72,7 +72,7 @@ _GOALS: Mapping[str, Goal] = {
 """Lines that are asked for, and the goal of a search that meets them if any does."""
 _COOL: Goal = "efficiency"
 _NEARLY_HELD = 0.85
-"""Margin of what a motor holds with a gearbox that loses little, from which that is gone on with."""
+"""Margin of what a motor holds with a gearbox that loses little, from which the search goes on."""
 _LASTING = {"MOTOR-CONTINUOUS", HOT}
 """Lines of which a continuous torque that nobody stated is lowered."""
 _BY_STRENGTH = {"STIFFNESS", "SHOCK-STOP"}

@@ -49,6 +49,7 @@ from cqdd_design.sizing.shafts import stronger_shaft
 from cqdd_design.sizing.spaces import FITS, MATERIALS, Found, Space, spaces
 from cqdd_design.sizing.stage_tables import stage_tables
 from cqdd_design.sizing.verified import (
+    _cooler_gearbox,
     _next_step,
     _turned,
     searched,
@@ -219,6 +220,55 @@ def test_a_motor_that_no_gearbox_makes_strong_enough_ends_the_search(
     with pytest.raises(SizingInfeasibleError) as caught:
         searched(hunt, machine.design.requirements)
     assert caught.value.binding == (far[0].id,)
+
+
+def test_a_motor_far_from_holding_a_torque_gets_a_gearbox_that_loses_less(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Where the motor is near it with that one; not for a peak torque, nor where it is not."""
+    hunt = hunt_of_what_is_assumed()
+    told = SimpleNamespace(
+        id="MOTOR-CONTINUOUS", title="held", substituted="0 N*m", remedy="cool it", value=0.0
+    )
+    machines, asked_for = SimpleNamespace(sized=SimpleNamespace(machine="cool")), []
+    monkeypatch.setattr("cqdd_design.sizing.verified.promising", lambda _: machines)
+
+    def far(_: Hunt, machine: object, least: float = 0.0) -> tuple[object, ...]:
+        asked_for.append((machine, least))
+        return short
+
+    monkeypatch.setattr("cqdd_design.sizing.verified.motor_far_short", far)
+    short: tuple[object, ...] = ()
+    assert _cooler_gearbox(hunt, (told,)) is machines
+    assert (hunt.goal, hunt.pins, asked_for) == ("efficiency", (False, True), [("cool", 0.85)])
+    with pytest.raises(SizingInfeasibleError) as refused:
+        _cooler_gearbox(hunt, (told,))
+    assert refused.value.most_lasting_torque is None
+    held = SimpleNamespace(**{**vars(told), "value": 1.5})
+    short = (held,)
+    with pytest.raises(SizingInfeasibleError) as refused:
+        _cooler_gearbox(hunt_of_what_is_assumed(), (held,))
+    assert refused.value.most_lasting_torque == pytest.approx(1.5, rel=0.01)
+    peak = SimpleNamespace(**{**vars(held), "id": "MOTOR-PEAK"})
+    short = ()
+    with pytest.raises(SizingInfeasibleError) as refused:
+        _cooler_gearbox(hunt_of_what_is_assumed(), (peak,))
+    assert refused.value.most_torque == pytest.approx(1.5, rel=0.01)
+
+
+@pytest.mark.deep
+def test_a_torque_that_a_light_gearbox_is_too_warm_for_is_held_by_a_cooler_one() -> None:
+    """Near the speed at which the motor's own drag warms it to its limit."""
+    wanted = {
+        "ratio": 16,
+        "peak_torque": "14.6 N*m",
+        "continuous_torque": "0.95 N*m",
+        "continuous_speed": "1100 rpm",
+        "life": "644 h",
+    }
+    found = size_to_verdict(requirements_from_mapping(wanted))
+    assert found.verdict.meets == "yes"
+    assert found.sizing.objective.goal == "efficiency"
 
 
 def test_what_a_stronger_gearbox_meets_asks_for_more_reserve_at_the_peak() -> None:
