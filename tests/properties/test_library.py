@@ -256,7 +256,7 @@ def test_a_torque_that_is_none_is_refused_by_its_name(given, told):
         (lambda: cq.export("cqdd-10", "gcode", passes="4"), "^passes '4' is not a whole number"),
         (lambda: cq.export("cqdd-10", "dxf", seed=3), "^seed draws .*with to mjcf or urdf"),
         (lambda: cq.load("cqdd-10", motor=3), "^motor 3 is not a text"),
-        (lambda: cq.report("cqdd-10", format=3), "^format 3 is not a text"),
+        (lambda: cq.report("cqdd-10", format=3), "^format 3: a report is html or pdf"),
     ],
 )
 def test_errors_name_arguments_and_are_of_one_family(call, told):
