@@ -366,6 +366,20 @@ def test_backlash_of_drawn_gearboxes_is_that_of_the_search(seed: int) -> None:
             assert_pressed_alike(rigid_of(model, errors), crank, *ends)
 
 
+@pytest.mark.parametrize(("seed", "place"), [(5, 21), (7, 21)])
+def test_ends_of_a_shallow_valley_are_where_it_gets_steep(seed: int, place: int) -> None:
+    """Pressed flanks that bend over the range would hold the carrier in its middle."""
+    design = paper_design()
+    model = ContactModel.from_design(design)
+    errors = draw_errors(model, design.tolerances, 0, seed, 1).one(0)
+    crank = output_turn_angles(model, 88)[[place]]
+    found = backlash(model, crank, errors=errors)
+    assert found.preloaded
+    assert found.free[0] > 1.5 * ARCMIN
+    ends = found.least[0], found.greatest[0]
+    assert_pressed_alike(rigid_of(model, errors), float(crank[0]), *ends)
+
+
 def searched(model: ContactModel, errors: GearboxErrors, crank: float, larger: float) -> float:
     """Backlash by the search with all holes' radii larger, rad."""
     loose = replace(model, hole_radius=model.hole_radius + larger)
