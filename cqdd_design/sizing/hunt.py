@@ -309,7 +309,7 @@ class Hunt:
             and space.cam in {"", one.designation}
         )
         if not bearings:
-            raise InfeasibleError("no cam bearing that is tried goes into this space.")
+            raise InfeasibleError(_no_bearing(asked))
         return replace(
             frame,
             needs=both,
@@ -320,3 +320,14 @@ class Hunt:
             pin_circle_limit=self.most_pin_circle,
             throw_limit=space.throw,
         )
+
+
+def _no_bearing(asked: Requirements) -> str:
+    """Why no cam bearing of the catalogue is left to try."""
+    told = "no cam bearing that is tried goes into this space"
+    if asked.bore is None:
+        return f"{told}."
+    return (
+        f"{told}: its own bore has to be wider than requirements.bore {1e3 * asked.bore:g} mm; ask for a "
+        "smaller bore, or raise outer_diameter."
+    )

@@ -153,6 +153,8 @@ def no_design(search: Search, *, nearest: bool = True) -> SizingInfeasibleError:
             f"{largest} mm"
         )
     remedy = ", or ".join(fixes) or "change the ratio, the materials or disc_count"
+    if wanted.bore is not None:
+        remedy += ", or ask for a smaller bore"
     return SizingInfeasibleError(
         f"{text}. {remedy[0].upper()}{remedy[1:]}.",
         binding=binding,

@@ -66,8 +66,9 @@ def nothing(hunt: Hunt) -> SizingInfeasibleError:
             f"{lasting:g} N*m are carried"
         )
     closer = ", or state closer [tolerances] in a design" if hunt.has_extra else ""
+    bore = "" if asked.bore is None else ", ask for a smaller bore"
     return SizingInfeasibleError(
-        f"{text}. Ask for less torque, give more space{closer}.",
+        f"{text}. Ask for less torque, give more space{bore}{closer}.",
         binding=(*(("YIELD",) if hunt.has_extra else ()), *binding),
         most_torque=rounded_down(share * asked.peak_torque, 2) if share < 1.0 else None,
     )

@@ -14,6 +14,7 @@ from cqdd_design.catalog.encoders import encoder_sensors
 from cqdd_design.design import Design, load_design, requirements_from_mapping
 from cqdd_design.design.templates import example_text
 from cqdd_design.design.toml import design_of_text
+from cqdd_design.errors import InfeasibleError
 from cqdd_design.exporting.bill.fitting import fitting_notes
 from cqdd_design.exporting.bill.substitutes import substitutes
 from cqdd_design.exporting.sheets.canvas import render
@@ -21,8 +22,9 @@ from cqdd_design.exporting.sheets.part_facts import PartFacts
 from cqdd_design.exporting.sheets.part_sheet import draw_part
 from cqdd_design.geometry.contours import Circle
 from cqdd_design.machine import Machine, resolve
+from cqdd_design.sizing.refusals import nothing
 from cqdd_design.sizing.shafts import weak_lines
-from cqdd_design.sizing.verified import size_to_verdict
+from cqdd_design.sizing.verified import new_hunt, size_to_verdict
 from cqdd_design.solids.apart import taken_apart
 from cqdd_design.solids.clearances import assembly_motion, output_revolution
 from cqdd_design.solids.encoder_rules import (
@@ -263,3 +265,17 @@ def test_the_examples_keep_their_shafts() -> None:
     for name in ("cqdd-10", "reference-s"):
         machine = resolve(design_of_text(example_text(name), Path(name)))
         assert dataclasses.asdict(end_of(machine))["way"] == 0.0
+
+
+def test_a_refusal_names_the_bore_beside_torque_and_space() -> None:
+    """Wide cam bearings alone are tried for a wide hole, and leave little of the discs."""
+    asked = {"ratio": 10, "peak_torque": "30 N*m", "continuous_torque": "5 N*m"}
+    for bore, named in (({}, False), ({"bore": "20 mm"}, True)):
+        hunt = new_hunt(requirements_from_mapping(asked | bore), print, None, None, "mass")
+        assert ("ask for a smaller bore" in nothing(hunt).message) == named
+    for wide, told in (
+        ("40 mm", "or ask for a smaller bore"),
+        ("70 mm", "requirements.bore 70 mm"),
+    ):
+        with pytest.raises(InfeasibleError, match=told):
+            size_to_verdict(requirements_from_mapping(asked | {"bore": wide}))
