@@ -328,6 +328,6 @@ def _no_bearing(asked: Requirements) -> str:
     if asked.bore is None:
         return f"{told}."
     return (
-        f"{told}: its own bore has to be wider than requirements.bore {1e3 * asked.bore:g} mm; ask for a "
-        "smaller bore, or raise outer_diameter."
+        f"{told}: its own bore has to be wider than requirements.bore {1e3 * asked.bore:g} mm; ask "
+        "for a smaller bore, or raise outer_diameter."
     )
