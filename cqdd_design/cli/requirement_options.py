@@ -93,7 +93,7 @@ def stated(asked: Mapping[str, Any]) -> dict[str, Any]:
         Naming the option and the right form, for a text that is no such quantity.
     """
     from cqdd_design.design import Requirements
-    from cqdd_design.design.model import field_dimension
+    from cqdd_design.design.tables import field_dimension
 
     given = {row: asked[row.argument] for row in _ROWS if asked[row.argument] is not None}
     for row, text in given.items():

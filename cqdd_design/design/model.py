@@ -5,16 +5,15 @@ from __future__ import annotations
 import hashlib
 import html
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import asdict
-from functools import cache
-from typing import TYPE_CHECKING, Any, Literal, get_args
+from typing import TYPE_CHECKING, Any, Literal
 
-from pydantic import BaseModel, PrivateAttr, ValidationError, model_validator
-from pydantic.fields import FieldInfo
+from pydantic import PrivateAttr, ValidationError, model_validator
 
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design.actuator import Drive, Edm, Environment, Housing, Tolerances
+from cqdd_design.design.contradictions import defaults_it_does_not_have, too_cold_a_surface
 from cqdd_design.design.fields import FrozenModel
 from cqdd_design.design.motor import SUPPLY, MotorFile, MotorTable
 from cqdd_design.design.motor_row import IN_DESIGN, motor_row, own_table
@@ -22,17 +21,10 @@ from cqdd_design.design.printing import Printing
 from cqdd_design.design.problems import describe_problems
 from cqdd_design.design.reducer import Reducer
 from cqdd_design.design.requirements import Requirements
-from cqdd_design.errors import DesignError, is_unprintable, shown
+from cqdd_design.design.tables import delete_key, dump, insert_key, leaves, leaves_of
+from cqdd_design.errors import DesignError, is_unprintable
 from cqdd_design.files import refuse_extremes
-from cqdd_design.units import (
-    CURRENT,
-    LENGTH,
-    TEMPERATURE,
-    VOLTAGE,
-    Dimension,
-    QuantityIn,
-    format_quantity,
-)
+from cqdd_design.units import CURRENT, LENGTH, VOLTAGE, format_quantity
 
 if TYPE_CHECKING:
     from cqdd_design.design.duty_log import DutyColumns, DutyLog
@@ -40,53 +32,6 @@ if TYPE_CHECKING:
 SCHEMA_VERSION: Literal[1] = 1
 #: Bytes of a name; file names add theirs, and 255 is the most that file systems take.
 _LONGEST_NAME = 200
-
-
-def too_cold_a_surface(asked: Requirements, ambient: float) -> str:
-    """What is wrong with a surface that is to be as cold as the air (deg C); empty of any other."""
-    wanted = asked.surface_temperature
-    if wanted is None or wanted > ambient:
-        return ""
-    return (
-        f"requirements.surface_temperature {format_quantity(wanted, TEMPERATURE)} is not above "
-        f"environment.ambient {format_quantity(ambient, TEMPERATURE)}: nothing that loses heat is "
-        "as cold as the air; raise it or lower ambient"
-    )
-
-
-def _other_parts(design: Design) -> dict[str, tuple[str, Any]]:
-    """Requirements whose part the design has another of, stated or not: where, and which."""
-    reducer, motor = design.reducer, design.motor
-    has: dict[str, tuple[str, Any]] = {
-        "motor": ("motor.name", motor.base or motor.name),
-        "disc_count": ("reducer.disc_count", reducer.disc_count),
-        "disc_material": ("reducer.disc_material", reducer.disc_material),
-        "ring_material": ("reducer.ring_material", reducer.ring_material),
-        "pin_material": ("reducer.output_pins.material", reducer.output_pins.material),
-    }
-    asked = design.requirements
-    return {key: part for key, part in has.items() if getattr(asked, key) != part[1]}
-
-
-def parts_not_asked_for(design: Design) -> tuple[str, ...]:
-    """A sentence on every part that stated requirements name and the design has another of.
-
-    Each without its last stop. Requirements that were left out hold their defaults for `size` and
-    ask a design for nothing.
-    """
-    asked = design.requirements
-    return tuple(
-        f"requirements.{key} {shown(getattr(asked, key))} is not {place} {shown(there)}; make them "
-        f"equal or leave requirements.{key} out"
-        for key, (place, there) in _other_parts(design).items()
-        if key in asked.model_fields_set
-    )
-
-
-def _defaults_it_does_not_have(design: Design) -> list[str]:
-    """Requirements that nobody stated and whose default is another part than the design has."""
-    stated = design.requirements.model_fields_set
-    return [key for key in _other_parts(design) if key not in stated]
 
 
 class Design(FrozenModel):
@@ -226,7 +171,7 @@ class Design(FrozenModel):
             design = cls.model_validate(dict(data), context={"si": si})
         except ValidationError as error:
             raise describe_problems(error, cls, source) from None
-        given = set(_leaves(data))
+        given = set(leaves(data))
         if design.motor.data or design.motor.based_on:
             # Whoever gives a motor's data asks for that motor.
             given.add("motor.name")
@@ -282,7 +227,7 @@ class Design(FrozenModel):
         """The design with these keys of its motor, SI, and some others left to their defaults."""
         mapping = self.to_mapping()
         for key in (*self.assumed, *without):
-            _delete(mapping, key)
+            delete_key(mapping, key)
         table = mapping.pop("motor", {})
         driver = {key: table[key] for key in ("voltage", "current_limit") if key in table}
         return self._rebuilt(mapping | {"motor": {**keys, **driver}})
@@ -291,13 +236,13 @@ class Design(FrozenModel):
         """A design in which dotted keys are left to their defaults."""
         mapping = self.to_mapping()
         for key in (*self.assumed, *keys):
-            _delete(mapping, key)
+            delete_key(mapping, key)
         return self._rebuilt(mapping)
 
     def dotted_keys(self) -> tuple[str, ...]:
         """All dotted keys of the resolved design, in file order."""
-        without = {f"requirements.{key}" for key in _defaults_it_does_not_have(self)}
-        return tuple(key for key in _leaves_of(self) if key not in without)
+        without = {f"requirements.{key}" for key in defaults_it_does_not_have(self)}
+        return tuple(key for key in leaves_of(self) if key not in without)
 
     def to_mapping(self) -> dict[str, Any]:
         """The design as nested tables with unit strings, every key present that has a value.
@@ -306,7 +251,7 @@ class Design(FrozenModel):
         they would ask for what it is not.
         """
         mapping = dump(self)
-        for key in _defaults_it_does_not_have(self):
+        for key in defaults_it_does_not_have(self):
             mapping["requirements"].pop(key)
         return mapping
 
@@ -317,9 +262,9 @@ class Design(FrozenModel):
         """
         mapping = self.to_mapping()
         for key in self.assumed:
-            _delete(mapping, key)
+            delete_key(mapping, key)
         for key, value in changes.items():
-            _insert(mapping, key, value)
+            insert_key(mapping, key, value)
         return self._rebuilt(mapping)
 
     def _rebuilt(self, mapping: Mapping[str, Any]) -> Design:
@@ -349,7 +294,7 @@ class Design(FrozenModel):
         """The design under another duty, which comes from a file, in place of its own."""
         mapping = self.to_mapping()
         for key in self.assumed:
-            _delete(mapping, key)
+            delete_key(mapping, key)
         for key in ("duty", "duty_file", "duty_columns"):
             mapping["requirements"].pop(key, None)
         mapping["requirements"] |= duty_keys(file, columns)
@@ -369,7 +314,7 @@ class Design(FrozenModel):
         """The design with one torque (N m) for peak, continuous torque and duty."""
         mapping = self.to_mapping()
         for key in self.assumed:
-            _delete(mapping, key)
+            delete_key(mapping, key)
         asked = mapping.setdefault("requirements", {})
         for key in ("duty", "duty_file", "duty_columns"):
             asked.pop(key, None)
@@ -398,76 +343,3 @@ def supply_taken_over(design: Design) -> dict[str, str]:
         for key, own in SUPPLY.items()
         if getattr(design.requirements, own) is not None
     }
-
-
-def dump(model: BaseModel) -> dict[str, Any]:
-    """A model as nested tables with unit strings."""
-    result: dict[str, Any] = {}
-    for attribute, name, dimension in _told_fields(type(model)):
-        value = getattr(model, attribute)
-        if value is None:  # not asked for, and TOML has no word for it
-            continue
-        if isinstance(value, BaseModel):
-            result[name] = dump(value)
-        elif isinstance(value, tuple):
-            if value:
-                result[name] = [dump(item) for item in value]
-        elif dimension is not None:
-            result[name] = format_quantity(value, dimension)
-        else:
-            result[name] = value
-    return result
-
-
-@cache
-def _told_fields(model: type[BaseModel]) -> tuple[tuple[str, str, Dimension | None], ...]:
-    """Attribute, name in a file and dimension of every field of a model."""
-    return tuple(
-        (attribute, field.alias or attribute, field_dimension(field))
-        for attribute, field in model.model_fields.items()
-    )
-
-
-def field_dimension(field: FieldInfo) -> Dimension | None:
-    """The dimension of a quantity field, optional or not, or None for other fields."""
-    optional = [args for args in map(get_args, get_args(field.annotation)) if args]
-    for item in (*field.metadata, *(part for args in optional for part in args[1:])):
-        if isinstance(item, QuantityIn):
-            return item.dimension
-    return None
-
-
-def _leaves_of(model: BaseModel, prefix: str = "") -> Iterator[str]:
-    """Those of `dump`, without the values."""
-    for attribute, name, _ in _told_fields(type(model)):
-        value = getattr(model, attribute)
-        if isinstance(value, BaseModel):
-            yield from _leaves_of(value, f"{prefix}{name}.")
-        elif value is not None and value != ():
-            yield f"{prefix}{name}"
-
-
-def _leaves(data: Mapping[str, Any], prefix: str = "") -> Iterator[str]:
-    for key, value in data.items():
-        if isinstance(value, Mapping):
-            yield from _leaves(value, f"{prefix}{key}.")
-        else:
-            yield f"{prefix}{key}"
-
-
-def _delete(mapping: dict[str, Any], key: str) -> None:
-    *tables, last = key.split(".")
-    for table in tables:
-        mapping = mapping.get(table, {})
-    mapping.pop(last, None)
-
-
-def _insert(mapping: dict[str, Any], key: object, value: Any) -> None:
-    if not isinstance(key, str):
-        raise DesignError(f'{shown(key)} is not a dotted key, such as "reducer.eccentricity".')
-    *tables, last = key.split(".")
-    for table in tables:
-        mapping = mapping.setdefault(table, {})
-        if not isinstance(mapping, dict):
-            raise DesignError(f"{key} is not a key: {table} is no table.")
-    mapping[last] = value

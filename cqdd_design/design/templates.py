@@ -14,9 +14,10 @@ from pydantic.fields import FieldInfo
 
 from cqdd_design.catalog.motors import CONVENTIONS, Motor, find_motor
 from cqdd_design.design.fields import Share, ShareOr, Whole
-from cqdd_design.design.model import Design, dump, field_dimension
+from cqdd_design.design.model import Design
 from cqdd_design.design.motor import DEFAULT_MOTOR, MotorData
 from cqdd_design.design.requirements import Requirements
+from cqdd_design.design.tables import dump, field_dimension
 from cqdd_design.errors import CatalogError, nearest_names
 from cqdd_design.units import QuantityIn, format_quantity
 

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import ValidationError
 
-from cqdd_design.design.model import SCHEMA_VERSION, Design, parts_not_asked_for
+from cqdd_design.design.contradictions import parts_not_asked_for
+from cqdd_design.design.model import SCHEMA_VERSION, Design
 from cqdd_design.design.motor import MotorFile, motor_of_requirements, supply_of_requirements
 from cqdd_design.design.problems import describe_problems, listed
 from cqdd_design.design.requirements import Requirements

@@ -198,7 +198,7 @@ def _requirements(asked: dict[str, Any], source: Requirements | Path | None) -> 
 
 def _stated(source: Requirements, asked: Mapping[str, Any]) -> dict[str, Any]:
     """The keys of requirements that were stated, with their unit; no duty beside another one."""
-    from cqdd_design.design.model import dump
+    from cqdd_design.design.tables import dump
 
     fields, values = type(source).model_fields, dump(source)
     own = source.model_fields_set - source.derived

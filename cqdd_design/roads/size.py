@@ -12,7 +12,7 @@ from pydantic import ValidationError
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design, Requirements
 from cqdd_design.design.actuator import Environment
-from cqdd_design.design.model import too_cold_a_surface
+from cqdd_design.design.contradictions import too_cold_a_surface
 from cqdd_design.design.motor import MotorFile
 from cqdd_design.design.motor_row import row_over
 from cqdd_design.environment import output_folder

@@ -8,7 +8,7 @@ import numpy as np
 
 from cqdd_design.catalog.bearings import find_bearing
 from cqdd_design.design import Design, Requirements
-from cqdd_design.design.model import dump
+from cqdd_design.design.tables import dump
 from cqdd_design.errors import DesignError
 from cqdd_design.gearbox.bearing_life import life_exponent
 from cqdd_design.gearbox.cam_bearing import rolling_element

@@ -17,6 +17,7 @@ from cqdd_design.sizing.masses import Weights
 _NEEDLES = FRICTION_COEFFICIENT["needle cage"] / BOUNDARY_FRICTION
 """Friction of a pin on needles over that of a bare one."""
 _PINS_PLAY, _FEW_PINS_PLAY = 0.77, 2.9
+"""Of the pins' clearance in the output's play: of many pins, and more where there are few."""
 _TIE = 0.02
 """Power of the mass beside another goal: of two equal ones the lighter is the better."""
 

@@ -161,26 +161,35 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
 
 def _less_torque(hunt: Hunt, refusal: SizingInfeasibleError) -> _Way:
     """A search for torques that fit: less of that alone which is short, where that is enough."""
-    asked, most, lasting = hunt.requirements, refusal.most_torque, refusal.most_lasting_torque
-    if most is not None and set(refusal.binding) == {"MOTOR-PEAK"}:
-        peak = rounded_down(most, _DIGITS)
-        if asked.continuous_torque <= peak < asked.peak_torque:
-            way = _tried(hunt, asked.unchecked_copy({PEAK: peak}))
-            if way.found is not None:
-                return way
-    if lasting is not None and set(refusal.binding) <= _ALONE[CONTINUOUS]:
-        # Of any gearbox a motor may hold nothing; of that which was judged it holds so much.
-        held = rounded_down(_HELD * lasting, _DIGITS)
-        if 0.0 < held < asked.continuous_torque:
-            way = _tried(hunt, asked.model_copy(update={CONTINUOUS: held}))
-            if way.found is not None:
-                return way
+    asked, short = hunt.requirements, set(refusal.binding)
+    for change in _what_the_judged_has(asked, refusal):
+        way = _tried(hunt, asked.unchecked_copy(change))
+        if way.found is not None:
+            return way
     for torque, lines in _ALONE.items():
-        if set(refusal.binding) <= lines:
+        if short <= lines:
             way = _tried(hunt, asked.deriving(torque))
             if way.found is not None:
                 return way
     return _tried(hunt, asked.deriving(PEAK, CONTINUOUS))
+
+
+def _what_the_judged_has(
+    asked: Requirements, refusal: SizingInfeasibleError
+) -> Iterator[dict[str, float]]:
+    """Torques that the motor was found to reach or hold in the design that was judged.
+
+    With any other gearbox it may do less.
+    """
+    most, lasting = refusal.most_torque, refusal.most_lasting_torque
+    if most is not None and set(refusal.binding) == {"MOTOR-PEAK"}:
+        peak = rounded_down(most, _DIGITS)
+        if asked.continuous_torque <= peak < asked.peak_torque:
+            yield {PEAK: peak}
+    if lasting is not None and set(refusal.binding) <= _ALONE[CONTINUOUS]:
+        held = rounded_down(_HELD * lasting, _DIGITS)
+        if 0.0 < held < asked.continuous_torque:
+            yield {CONTINUOUS: held}
 
 
 def _why(refusal: InfeasibleError) -> str:

@@ -7,7 +7,6 @@ with few gearboxes first, and choose clearances and reserves; then the whole ver
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from copy import copy
 from dataclasses import dataclass, replace
@@ -16,9 +15,8 @@ from typing import NamedTuple
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Requirements
 from cqdd_design.errors import InfeasibleError
-from cqdd_design.results import Check
-from cqdd_design.sizing.able import CONTINUOUS, PEAK, cooler, first_guess
-from cqdd_design.sizing.bearable import JUST, or_weaker, weaker
+from cqdd_design.sizing.able import CONTINUOUS, PEAK, first_guess
+from cqdd_design.sizing.bearable import or_weaker
 from cqdd_design.sizing.costs import costs
 from cqdd_design.sizing.eased import LITTLE, MUCH, eased, given
 from cqdd_design.sizing.frame import Fit, Goal
@@ -26,31 +24,26 @@ from cqdd_design.sizing.hunt import Hunt, Progress
 from cqdd_design.sizing.infeasible import SizingInfeasibleError
 from cqdd_design.sizing.kinds import lightest, promising
 from cqdd_design.sizing.looks import (
-    HOT,
     NothingWiderError,
-    clearance_needed,
     drawing_ahead,
     last_look,
     learn,
     look,
     motor_far_short,
-    read_spread,
     take,
 )
-from cqdd_design.sizing.refusals import TRIALS, least_margin, nothing, refused, short_of, unsettled
+from cqdd_design.sizing.refusals import TRIALS, least_margin, nothing, refused, unsettled
 from cqdd_design.sizing.result import SizingResult
 from cqdd_design.sizing.rings import finer
 from cqdd_design.sizing.search import Search
-from cqdd_design.sizing.shafts import BOND, SHAFT, stronger_shaft
+from cqdd_design.sizing.shafts import stronger_shaft
 from cqdd_design.sizing.spaces import FITS, Found
 from cqdd_design.sizing.stage_tables import stage_tables
+from cqdd_design.sizing.turns import cooler_gearbox, next_step, turned
 from cqdd_design.verdict import Verdict, judge
 
 _CLOSER, _CLOSER_PINS = 0.96, 6
 """Of a pin circle without a rated carrier bearing, and how often one is tried."""
-_BY_FRICTION = {"EFFICIENCY", "MOTOR-PEAK", "MOTOR-CONTINUOUS", "THERMAL-RISE"}
-_NEEDLES_BRING = 0.8
-"""Least margin of these lines from which needles under the output pins are tried."""
 _PATIENCE = 6
 """Trials after which a gearbox that part errors leave short is eased, a sound one kept, and no cam
 bearing tried that has not been looked at."""
@@ -59,26 +52,6 @@ _FEW = 8
 is so tight that a little more of it is the better advice."""
 _WORTH_IT = 0.99
 """Objective over a sound design's from which another is looked at instead."""
-_LEAST_SHARE = 0.5
-"""Of a peak torque that was not stated, below which no line's shortfall is met by lowering it."""
-_GOALS: Mapping[str, Goal] = {
-    "BACKLASH": "backlash",
-    "LOST-MOTION": "backlash",
-    "REFLECTED-INERTIA": "inertia",
-    "EFFICIENCY": "efficiency",
-    "MOTOR-CONTINUOUS": "efficiency",
-    HOT: "efficiency",
-}
-"""Lines that are asked for, and the goal of a search that meets them if any does."""
-_COOL: Goal = "efficiency"
-_NEARLY_HELD = 0.85
-"""Margin of what a motor holds with a gearbox that loses little, from which the search goes on."""
-_LASTING = {"MOTOR-CONTINUOUS", HOT}
-"""Lines of which a continuous torque that nobody stated is lowered."""
-_BY_STRENGTH = {"STIFFNESS", "SHOCK-STOP"}
-"""Lines that are asked for and that a stronger gearbox meets."""
-_STURDIER = 1.3
-"""Of its reserve at the peak, from one search to the next."""
 
 
 @dataclass(frozen=True)
@@ -172,7 +145,7 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
     progress("searching by closed forms, held against the contact equilibrium")
     found = or_weaker(hunt, lambda: promising(hunt))
     if found is not None and (far := motor_far_short(hunt, found.sized.machine)):
-        found = _cooler_gearbox(hunt, far)
+        found = cooler_gearbox(hunt, far)
     nearest: Verdict | None = None
     thorough = hunt.any_will_do
     sound: _Sound | None = None
@@ -222,10 +195,10 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
                 if judged.meets == "yes":
                     return _verified(hunt, result.result(), judged, requirements)
                 nearest = judged if nearest is None else max(nearest, judged, key=least_margin)
-                if _turned(hunt, found, judged):
+                if turned(hunt, found, judged):
                     found = or_weaker(hunt, lambda: lightest(hunt))
                     continue
-                step = _next_step(hunt, found, judged)
+                step = next_step(hunt, found, judged)
                 if step is None:
                     break
                 if (less := eased(hunt, found, _least_left(hunt, trial))) is not None:
@@ -240,27 +213,6 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
     if nearest is not None:
         raise refused(nearest)
     raise nothing(hunt) if found is None else unsettled(found)
-
-
-def _cooler_gearbox(hunt: Hunt, far: tuple[Check, ...]) -> Found:
-    """A gearbox that loses less, where a motor is far from holding a torque that is stated.
-
-    Near the speed at which its own drag warms a motor to its limit, what it holds hangs on little.
-
-    Raises
-    ------
-    SizingInfeasibleError
-        When the motor is as far from it with that one, or it is a peak torque.
-    """
-    if hunt.goal == _COOL or {line.id for line in far} != {"MOTOR-CONTINUOUS"}:
-        raise short_of(far)
-    hunt.say("searching with efficiency as the objective, for what the motor has to hold")
-    hunt.goal, hunt.pins = _COOL, (False, True) if hunt.may_roll else hunt.pins
-    hunt.tried.add(_COOL)
-    found = promising(hunt)
-    if found is None or motor_far_short(hunt, found.sized.machine, _NEARLY_HELD):
-        raise short_of(far)
-    return found
 
 
 def _less_of_it(hunt: Hunt, found: Found, trial: int) -> Found | None:
@@ -376,85 +328,3 @@ def _result(hunt: Hunt, found: Found, began: float) -> SizingResult:
         costs=costs(hunt, found),
         seconds=time.perf_counter() - began,
     )
-
-
-def _next_step(hunt: Hunt, found: Found, judged: Verdict) -> float | None:
-    """What could bring a design that was judged nearer to a yes; see `read_spread`."""
-    failing = {line.id for line in judged.lines if line.status in {"fail", "unknown"}}
-    less = cooler(hunt.requirements) if failing & {HOT, "MOTOR-CONTINUOUS"} else None
-    if less is not None:
-        hunt.requirements, hunt.lowered, hunt.lowered_by = less, True, found.cam
-        # What is cooler is bonded better.
-        failing -= {HOT, "MOTOR-CONTINUOUS", BOND}
-        if not failing:
-            return 0.0
-    others = failing - {"YIELD", "THERMAL-CLEARANCE", *SHAFT}
-    if others:
-        share = _bearing_all(hunt, judged, others)
-        if share is None:
-            return None
-        hunt.requirements = weaker(hunt.requirements, share, 1.0)
-        return 0.0
-    if failing & SHAFT:
-        stronger_shaft(hunt, found, judged.lines)
-        return 0.0
-    step = clearance_needed(judged.evidence.temperatures, judged.lines)
-    if step > 0.0:
-        return step
-    machine, drawn = judged.evidence.machine, judged.evidence.drawn
-    return None if drawn is None else read_spread(hunt, machine, drawn, judged.lines)
-
-
-def _bearing_all(hunt: Hunt, judged: Verdict, short: set[str]) -> float | None:
-    """Share of a peak torque that was not stated which some lines bear; None where that helps none.
-
-    Of lines in proportion to it; others that do not come right by it end the trials.
-    """
-    lines = [line for line in judged.lines if line.id in short]
-    if PEAK not in hunt.requirements.derived or not all(line.known for line in lines):
-        return None
-    share = JUST * min(line.margin for line in lines)
-    return share if _LEAST_SHARE <= share < 1.0 else None
-
-
-def _needles_help(hunt: Hunt, judged: Verdict) -> bool:
-    """Whether a design with bare pins falls short of what friction takes, and not by far."""
-    short = [line for line in judged.lines if line.status in {"fail", "unknown"}]
-    return (
-        True not in hunt.pins
-        and hunt.may_roll
-        # Where less torque may be asked for, that comes first.
-        and not hunt.requirements.derived
-        and all(
-            line.known and line.id in _BY_FRICTION and line.margin >= _NEEDLES_BRING
-            for line in short
-        )
-    )
-
-
-def _turned(hunt: Hunt, found: Found, judged: Verdict) -> bool:
-    """Whether the hunt now goes for other pins, or for what a design falls short of."""
-    if _needles_help(hunt, judged):
-        hunt.pins = (True,)
-        hunt.say("searching with the output pins on needles")
-        return True
-    failing = {line.id for line in judged.lines if line.status in {"fail", "unknown"}}
-    if failing & _BY_STRENGTH and failing <= {*_BY_STRENGTH, "YIELD", *SHAFT}:
-        if not hunt.may_be_sturdier:
-            return False
-        if failing & SHAFT:
-            stronger_shaft(hunt, found, judged.lines)
-        hunt.sturdier *= _STURDIER
-        hunt.say(f"searching for a gearbox with {hunt.sturdier:.3g} times the reserve at the peak")
-        return True
-    if failing & _LASTING and CONTINUOUS in hunt.requirements.derived:
-        return False
-    goals = [goal for name, goal in _GOALS.items() if name in failing and goal not in hunt.tried]
-    if not goals or not failing <= {*_GOALS, "YIELD", *SHAFT} or goals[0] == hunt.goal:
-        return False
-    if failing & SHAFT:
-        stronger_shaft(hunt, found, judged.lines)
-    hunt.goal, hunt.fit = goals[0], FITS[0]
-    hunt.tried.add(goals[0])
-    hunt.say(f"searching with {goals[0]} as the objective, which is asked for")
-    return True

@@ -18,11 +18,12 @@ def bore_line(machine: Machine) -> Check | None:
     except GeometryError as error:
         return build_check("BORE", None, 1e3 * wanted, error.message, "see why nothing is drawn")
     hole, journal = 2e3 * layout.shaft.bore_radius, layout.shaft.support.bearing.bore_diameter
+    beside = "" if layout.motor_end is None else ", whose encoder stands beside it"
     return build_check(
         "BORE",
         # In drawings' digits: a hole of just the bore is one.
         round(hole, 6),
         1e3 * wanted,
-        f"{hole:.3g} mm through a shaft of {1e3 * journal:g} mm, whose encoder stands beside it",
+        f"{hole:.3g} mm through a shaft of {1e3 * journal:g} mm{beside}",
         "take a cam bearing and support bearings with a larger bore",
     )

@@ -13,8 +13,8 @@ from cqdd_design.design import (
     load_requirements,
     requirements_from_mapping,
 )
-from cqdd_design.design.model import dump
 from cqdd_design.design.motor import MotorData, MotorFile, read_motor
+from cqdd_design.design.tables import dump
 from cqdd_design.design.templates import TEMPLATES, example_text, examples
 from cqdd_design.machine import resolve
 

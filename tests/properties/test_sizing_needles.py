@@ -24,7 +24,8 @@ from cqdd_design.sizing.reserves import needle_reserves_per_radius, pin_reserves
 from cqdd_design.sizing.search import Search
 from cqdd_design.sizing.spaces import FITS, NEEDLE_PINS, spaces
 from cqdd_design.sizing.stage_tables import stage_tables
-from cqdd_design.sizing.verified import _again, _needles_help, _turned, size_to_verdict
+from cqdd_design.sizing.turns import _needles_help, turned
+from cqdd_design.sizing.verified import _again, size_to_verdict
 from cqdd_design.verdict.headline import efficiency
 
 ASKED = {
@@ -205,13 +206,13 @@ def test_both_kinds_are_tried_where_asked():
 def test_a_search_turns_to_what_is_asked_for_and_not_met(found):
     asks = hunt(asked(pin_material="Alloy steel 12.9 (ISO 7379)"), fit=FITS[3])
     loose, heavy = Line("BACKLASH", 0.7), Line("MASS", 0.7)
-    assert not _turned(asks, found, Judged(loose, heavy))
+    assert not turned(asks, found, Judged(loose, heavy))
     assert (asks.goal, asks.fit) == ("mass", FITS[3])
-    assert _turned(asks, found, Judged(loose, Line("YIELD", 0.5)))
+    assert turned(asks, found, Judged(loose, Line("YIELD", 0.5)))
     assert (asks.goal, asks.fit) == ("backlash", FITS[0])
     # Once: what the best of that search does not meet is refused.
-    assert not _turned(asks, found, Judged(loose))
-    assert _turned(asks, found, Judged(loose, Line("EFFICIENCY", 0.5)))
+    assert not turned(asks, found, Judged(loose))
+    assert turned(asks, found, Judged(loose, Line("EFFICIENCY", 0.5)))
     assert asks.goal == "efficiency"
 
 

@@ -48,13 +48,8 @@ from cqdd_design.sizing.reserves import ring_reserves
 from cqdd_design.sizing.shafts import stronger_shaft
 from cqdd_design.sizing.spaces import FITS, MATERIALS, Found, Space, spaces
 from cqdd_design.sizing.stage_tables import stage_tables
-from cqdd_design.sizing.verified import (
-    _cooler_gearbox,
-    _next_step,
-    _turned,
-    searched,
-    size_to_verdict,
-)
+from cqdd_design.sizing.turns import cooler_gearbox, next_step, turned
+from cqdd_design.sizing.verified import searched, size_to_verdict
 from cqdd_design.verdict import judge
 from cqdd_design.verdict.drawn import Allowed, drawn_gearboxes, used
 from cqdd_design.verdict.joint_lines import bell_line
@@ -231,28 +226,28 @@ def test_a_motor_far_from_holding_a_torque_gets_a_gearbox_that_loses_less(
         id="MOTOR-CONTINUOUS", title="held", substituted="0 N*m", remedy="cool it", value=0.0
     )
     machines, asked_for = SimpleNamespace(sized=SimpleNamespace(machine="cool")), []
-    monkeypatch.setattr("cqdd_design.sizing.verified.promising", lambda _: machines)
+    monkeypatch.setattr("cqdd_design.sizing.turns.promising", lambda _: machines)
 
     def far(_: Hunt, machine: object, least: float = 0.0) -> tuple[object, ...]:
         asked_for.append((machine, least))
         return short
 
-    monkeypatch.setattr("cqdd_design.sizing.verified.motor_far_short", far)
+    monkeypatch.setattr("cqdd_design.sizing.turns.motor_far_short", far)
     short: tuple[object, ...] = ()
-    assert _cooler_gearbox(hunt, (told,)) is machines
+    assert cooler_gearbox(hunt, (told,)) is machines
     assert (hunt.goal, hunt.pins, asked_for) == ("efficiency", (False, True), [("cool", 0.85)])
     with pytest.raises(SizingInfeasibleError) as refused:
-        _cooler_gearbox(hunt, (told,))
+        cooler_gearbox(hunt, (told,))
     assert refused.value.most_lasting_torque is None
     held = SimpleNamespace(**{**vars(told), "value": 1.5})
     short = (held,)
     with pytest.raises(SizingInfeasibleError) as refused:
-        _cooler_gearbox(hunt_of_what_is_assumed(), (held,))
+        cooler_gearbox(hunt_of_what_is_assumed(), (held,))
     assert refused.value.most_lasting_torque == pytest.approx(1.5, rel=0.01)
     peak = SimpleNamespace(**{**vars(held), "id": "MOTOR-PEAK"})
     short = ()
     with pytest.raises(SizingInfeasibleError) as refused:
-        _cooler_gearbox(hunt_of_what_is_assumed(), (peak,))
+        cooler_gearbox(hunt_of_what_is_assumed(), (peak,))
     assert refused.value.most_torque == pytest.approx(1.5, rel=0.01)
 
 
@@ -284,10 +279,10 @@ def test_what_a_stronger_gearbox_meets_asks_for_more_reserve_at_the_peak() -> No
         )
 
     found: Any = SimpleNamespace(cam="6803")
-    assert not _turned(hunt, found, judged("STIFFNESS", "MOTOR-SPEED"))
+    assert not turned(hunt, found, judged("STIFFNESS", "MOTOR-SPEED"))
     assert hunt.extra_for("6803") == {"BEARING-STATIC": 1.4, "BEARING-LIFE": 1.2}
     turns = 0
-    while _turned(hunt, found, judged("SHOCK-STOP", "YIELD")):
+    while turned(hunt, found, judged("SHOCK-STOP", "YIELD")):
         turns += 1
     assert 3.0 < hunt.sturdier < 4.0
     assert turns > 3
@@ -342,8 +337,8 @@ def test_a_refusal_tells_of_the_judged_design_that_came_nearest(
         "eased": lambda *_: None,
         "_result": lambda *_: None,
         "judge": lambda _: next(verdicts),
-        "_turned": lambda *_: next(turns),
-        "_next_step": lambda *_: None,
+        "turned": lambda *_: next(turns),
+        "next_step": lambda *_: None,
     }.items():
         monkeypatch.setattr(place + name, answer)
     hunt = hunt_of_what_is_assumed()
@@ -427,7 +422,7 @@ def test_a_shaft_whose_ends_have_no_bearing_gets_a_wider_cam_bearing(
     )
     hunt = hunt_of_what_is_assumed()
     space = Space(2, MATERIALS[1], MATERIALS[1], FITS[0])
-    assert _next_step(hunt, light, replace(judged, lines=lines)) == 0.0
+    assert next_step(hunt, light, replace(judged, lines=lines)) == 0.0
     left = {one.designation for one in hunt.frame(space, {}).bearings}
     assert left
     assert light.cam not in left

@@ -121,8 +121,8 @@ def _crafted(draw: random.Random, body: bytes) -> bytes:
 def motor_file(draw: random.Random) -> bytes:
     """A motor file."""
     from cqdd_design.catalog.motors import CONVENTIONS
-    from cqdd_design.design.model import field_dimension
     from cqdd_design.design.motor import MotorData
+    from cqdd_design.design.tables import field_dimension
 
     lines, others = [], []
     for key, field in MotorData.model_fields.items():
