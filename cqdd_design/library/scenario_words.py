@@ -123,35 +123,29 @@ class Choices:
         supply = self.quantity("--voltage", "VOLTAGE", None, example="24 V")
         told, seconds = self.command(command, signal, design, supply)
         model = cast("FrictionModel", friction)
-        rate = self.quantity("--rate", "FREQUENCY", "1 kHz") or 0.0
-        self._tell_too_fast(command, design, rate)
+        if command in _ON_ANGLES:
+            self._tell_too_fast(design.drive.control_rate)
         return Run(
             Scenario(told, carried, Start(output_angle=start), model),
             duration=seconds,
-            rate=rate,
+            rate=self.quantity("--rate", "FREQUENCY", "1 kHz") or 0.0,
             step=self.quantity("--step", "TIME", None, example="20 us"),
             voltage=supply,
             options=self.resolved,
             warnings=tuple(self.warnings),
         )
 
-    def _tell_too_fast(self, command: str, design: Design, rate: float) -> None:
-        """Warn of a command that swings faster than what samples it can follow or show."""
+    def _tell_too_fast(self, control_rate: float) -> None:
+        """Warn of angles that are commanded faster than a drive at its rate (Hz) can follow."""
         from cqdd_design.units import BANDWIDTH, FREQUENCY, format_quantity, parse_quantity
 
-        samplers = [("the rate of the record", rate, "raise --rate, or lower it")]
-        if command in _ON_ANGLES:
-            loop = "the drive's control_rate"
-            samplers.append((loop, design.drive.control_rate, "lower it: no drive follows that"))
         for option in _BY_SIGNAL:
             text = self.resolved.get(option)
-            fastest = 0.0 if text is None else parse_quantity(text, FREQUENCY)
-            for name, sampled, remedy in samplers:
-                if fastest > 0.5 * sampled:
-                    self.warnings.append(
-                        f"{option} {text} is above half of {name}, "
-                        f"{format_quantity(sampled, BANDWIDTH)}; {remedy}."
-                    )
+            if text is not None and parse_quantity(text, FREQUENCY) > 0.5 * control_rate:
+                self.warnings.append(
+                    f"{option} {text} is above half of the drive's control_rate, "
+                    f"{format_quantity(control_rate, BANDWIDTH)}; lower it: no drive follows that."
+                )
 
     def quantity(
         self,
