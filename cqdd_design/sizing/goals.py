@@ -16,7 +16,7 @@ from cqdd_design.sizing.masses import Weights
 
 _NEEDLES = FRICTION_COEFFICIENT["needle cage"] / BOUNDARY_FRICTION
 """Friction of a pin on needles over that of a bare one."""
-_PINS_PLAY, _FEW_PINS_PLAY = 0.77, 2.9
+PINS_PLAY, FEW_PINS_PLAY = 0.72, 3.4
 """Of the pins' clearance in the output's play: of many pins, and more where there are few."""
 _TIE = 0.02
 """Power of the mass beside another goal: of two equal ones the lighter is the better."""
@@ -69,12 +69,13 @@ def backlash_angle(frame: Frame, sizes: Sizes) -> FloatArray:
     """About the play of the output that 95 % of toleranced gearboxes stay below, rad.
 
     Teeth have their gap at both flanks and their longest arm n e, pins their clearance at R_w, of
-    which little contributes where many share it: 2 q/(n e) + (0.77 + 2.9/(N_w D)) c/R_w, by least
+    which little contributes where many share it: 2 q/(n e) + (0.72 + 3.4/(N_w D)) c/R_w, by least
     squares over 70 gearboxes of ratios 6 to 20, 1 to 3 discs, 4 to 12 pins and 5 fits at the usual
-    tolerances, 64 of each: within 7 % r.m.s., at worst 32 % above and 10 % below.
+    tolerances, 64 of each: within 8 % r.m.s., at worst 31 % above and 10 % below
+    (benchmarks/backlash_closed_form.py).
     """
     arm = frame.lobe_count * sizes.eccentricity
-    pins = _PINS_PLAY + _FEW_PINS_PLAY / (sizes.pin_count * frame.disc_count)
+    pins = PINS_PLAY + FEW_PINS_PLAY / (sizes.pin_count * frame.disc_count)
     return np.asarray(
         2.0 * frame.equidistant / arm + pins * sizes.hole_clearance / sizes.pin_circle
     )

@@ -67,10 +67,10 @@ def test_backlash_is_about_that_of_toleranced_gearboxes(designs: dict[str, Desig
 
 
 def test_backlash_by_hand(designs: dict[str, Design]) -> None:
-    """2 q/(n e) + (0.77 + 2.9/(N_w D)) c/R_w: 8 pins and two discs share most of the play."""
+    """2 q/(n e) + (0.72 + 3.4/(N_w D)) c/R_w: 8 pins and two discs share most of the play."""
     reducer = designs["eight pins"].reducer
     teeth = 2.0 * reducer.modification.equidistant / (10 * reducer.eccentricity)
     pins = reducer.output_pins.hole_clearance / reducer.output_pins.circle_radius
     assert closed_form(designs["eight pins"]) == pytest.approx(
-        ARCMIN * (teeth + (0.77 + 2.9 / 16.0) * pins)
+        ARCMIN * (teeth + (0.72 + 3.4 / 16.0) * pins)
     )
