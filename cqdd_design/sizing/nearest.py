@@ -188,7 +188,7 @@ def _what_the_judged_has(
             yield {PEAK: peak}
     if lasting is not None and set(refusal.binding) <= _ALONE[CONTINUOUS]:
         held = rounded_down(_HELD * lasting, _DIGITS)
-        if 0.0 < held < asked.continuous_torque:
+        if held < asked.continuous_torque:
             yield {CONTINUOUS: held}
 
 

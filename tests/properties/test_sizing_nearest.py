@@ -211,6 +211,20 @@ def test_what_the_motor_reaches_is_tried_as_it_is(monkeypatch):
     short = SizingInfeasibleError("no.", binding=("MOTOR-PEAK",), most_torque=19.47)
     nearest._less_torque(hunt, short)
     assert peaks == [(19.0, 6.0, frozenset())]
+    # A little less than it holds for ever, which hangs on the gearbox.
+    short = SizingInfeasibleError(
+        "no.", binding=("MOTOR-CONTINUOUS",), most_torque=None, most_lasting_torque=2.0
+    )
+    nearest._less_torque(hunt, short)
+    assert peaks[1:] == [(45.0, 1.9, frozenset())]
+    # Not where it holds nothing, which has no such figure, or where something else is short too.
+    for binding, held in ((("MOTOR-CONTINUOUS",), None), (("MOTOR-CONTINUOUS", "YIELD"), 2.0)):
+        short = SizingInfeasibleError(
+            "no.", binding=binding, most_torque=None, most_lasting_torque=held
+        )
+        nearest._less_torque(hunt, short)
+    assert len(peaks) == 4
+    assert all(free for *_, free in peaks[2:])
 
 
 def test_torques_that_nobody_stated_are_not_looked_for(monkeypatch):
