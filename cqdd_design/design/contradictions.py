@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from cqdd_design.design.motor import MotorTable
+from cqdd_design.design.reducer import Reducer
 from cqdd_design.design.requirements import Requirements
 from cqdd_design.errors import shown
 from cqdd_design.units import TEMPERATURE, format_quantity
-
-if TYPE_CHECKING:
-    from cqdd_design.design.model import Design
 
 
 def too_cold_a_surface(asked: Requirements, ambient: float) -> str:
@@ -24,9 +23,10 @@ def too_cold_a_surface(asked: Requirements, ambient: float) -> str:
     )
 
 
-def _other_parts(design: Design) -> dict[str, tuple[str, Any]]:
+def _other_parts(
+    asked: Requirements, reducer: Reducer, motor: MotorTable
+) -> dict[str, tuple[str, Any]]:
     """Requirements whose part the design has another of, stated or not: where, and which."""
-    reducer, motor = design.reducer, design.motor
     has: dict[str, tuple[str, Any]] = {
         "motor": ("motor.name", motor.base or motor.name),
         "disc_count": ("reducer.disc_count", reducer.disc_count),
@@ -34,26 +34,28 @@ def _other_parts(design: Design) -> dict[str, tuple[str, Any]]:
         "ring_material": ("reducer.ring_material", reducer.ring_material),
         "pin_material": ("reducer.output_pins.material", reducer.output_pins.material),
     }
-    asked = design.requirements
     return {key: part for key, part in has.items() if getattr(asked, key) != part[1]}
 
 
-def parts_not_asked_for(design: Design) -> tuple[str, ...]:
+def parts_not_asked_for(
+    asked: Requirements, reducer: Reducer, motor: MotorTable
+) -> tuple[str, ...]:
     """A sentence on every part that stated requirements name and the design has another of.
 
     Each without its last stop. Requirements that were left out hold their defaults for `size` and
     ask a design for nothing.
     """
-    asked = design.requirements
     return tuple(
         f"requirements.{key} {shown(getattr(asked, key))} is not {place} {shown(there)}; make them "
         f"equal or leave requirements.{key} out"
-        for key, (place, there) in _other_parts(design).items()
+        for key, (place, there) in _other_parts(asked, reducer, motor).items()
         if key in asked.model_fields_set
     )
 
 
-def defaults_it_does_not_have(design: Design) -> list[str]:
+def defaults_it_does_not_have(
+    asked: Requirements, reducer: Reducer, motor: MotorTable
+) -> list[str]:
     """Requirements that nobody stated and whose default is another part than the design has."""
-    stated = design.requirements.model_fields_set
-    return [key for key in _other_parts(design) if key not in stated]
+    others = _other_parts(asked, reducer, motor)
+    return [key for key in others if key not in asked.model_fields_set]

@@ -239,9 +239,12 @@ class Design(FrozenModel):
             delete_key(mapping, key)
         return self._rebuilt(mapping)
 
+    def _defaults_it_does_not_have(self) -> list[str]:
+        return defaults_it_does_not_have(self.requirements, self.reducer, self.motor)
+
     def dotted_keys(self) -> tuple[str, ...]:
         """All dotted keys of the resolved design, in file order."""
-        without = {f"requirements.{key}" for key in defaults_it_does_not_have(self)}
+        without = {f"requirements.{key}" for key in self._defaults_it_does_not_have()}
         return tuple(key for key in leaves_of(self) if key not in without)
 
     def to_mapping(self) -> dict[str, Any]:
@@ -251,7 +254,7 @@ class Design(FrozenModel):
         they would ask for what it is not.
         """
         mapping = dump(self)
-        for key in defaults_it_does_not_have(self):
+        for key in self._defaults_it_does_not_have():
             mapping["requirements"].pop(key)
         return mapping
 

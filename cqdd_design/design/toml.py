@@ -51,7 +51,7 @@ def _design(data: dict[str, Any], path: Path) -> Design:
     data.setdefault("name", path.stem)
     design = Design.from_mapping(_migrated(data, path), source=str(path))
     # Of a file alone: whoever gives a command another motor means that one.
-    if others := parts_not_asked_for(design):
+    if others := parts_not_asked_for(design.requirements, design.reducer, design.motor):
         raise listed(others, str(path))
     log = _duty(design.requirements, path.parent)
     return design if log is None else design.with_duty_log(log)

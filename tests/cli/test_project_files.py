@@ -2,6 +2,8 @@
 
 import re
 import shlex
+import subprocess
+import sys
 import tomllib
 from pathlib import Path
 
@@ -189,3 +191,16 @@ def test_the_recipe_of_conda_forge_asks_for_what_the_package_asks_for(project):
     assert recipe["about"]["license"] == project["license"]
     assert recipe["about"]["license_file"] == project["license-files"]
     assert recipe["about"]["summary"] == project["description"]
+
+
+def test_no_two_modules_import_each_other_in_a_circle():
+    run = subprocess.run(
+        [sys.executable, REPOSITORY / "tools" / "imports.py"],
+        cwd=REPOSITORY,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert run.stderr == ""
+    assert run.returncode == 0
+    assert "design       catalog" in run.stdout
