@@ -21,7 +21,7 @@ HELD_SPEED = 300.0 * math.pi / 30.0
 a turn a second of an output at ratio 10. At its usual input speed a motor of this size is warmed to
 its limit by its own drag in still air."""
 PEAK, CONTINUOUS = "peak_torque", "continuous_torque"
-_EFFICIENCY = 0.72
+EFFICIENCY = 0.72
 """Of motor, drag and gearbox at a first guess of the peak."""
 _LASTING = 0.12
 """Continuous over peak torque at a first guess."""
@@ -55,7 +55,7 @@ def first_guess(requirements: Requirements, motor: Motor | None) -> Requirements
     changed: dict[str, Any] = {}
     peak = requirements.peak_torque
     if PEAK in free:
-        peak = rounded_down(_EFFICIENCY * requirements.ratio * shaft, _DIGITS)
+        peak = rounded_down(EFFICIENCY * requirements.ratio * shaft, _DIGITS)
         changed[PEAK] = peak
     if CONTINUOUS in free:
         changed[CONTINUOUS] = rounded_down(_LASTING * peak, _DIGITS)

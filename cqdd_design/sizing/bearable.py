@@ -22,6 +22,8 @@ from cqdd_design.sizing.spaces import Found, Space, spaces
 _LESS, _HALF, _TURNS = 0.95, 0.5, 16
 """Share of both torques that is tried next where the strongest design would bear them, the least
 where shafts would not, and how often."""
+_MUCH_LESS, _AGAIN = 0.8, 1.05
+"""Share that is tried next below which torques between are tried again, and the least step up."""
 _SHARES = (1.0, 0.6, 0.35, 0.2)
 """Of both torques at which something is looked for that bears more, or less, than them."""
 _STRONG = 5
@@ -57,16 +59,18 @@ def or_weaker(
     first = bearable(hunt, None) if near is None else Borne(math.inf, math.inf)
     if first.least < _CLOSE:
         hunt.strongest = first.cam
+    too_much: Requirements | None = None
     for turn in range(_TURNS):
         hopeless = turn == 0 and first.least < _CERTAIN
         found = None if hopeless else search()
         if found is not None:
-            return found
+            return found if too_much is None else _more_again(hunt, search, found, too_much)
         if hunt.short_of and not looked:
             looked = True
             if _in_vain(hunt, search):
                 break
         peak, lasting, hunt.strongest = first if hopeless else bearable(hunt, near)
+        too_much = None
         if min(peak, lasting) < 1.0:
             lowered = lowered[0] or peak < 1.0, lowered[1] or lasting < 1.0
             # What errors ask for differs from design to design.
@@ -76,12 +80,35 @@ def or_weaker(
             # Of what has been too much so far, and in the end of both.
             both = not any(lowered) or turn >= _TURNS // 2
             less = max(min(_LESS, hunt.shaft_bears), _HALF)
+            too_much = hunt.requirements if less < _MUCH_LESS else None
             peak, lasting = (less if both or one else 1.0 for one in lowered)
         # What was lowered for part errors is not raised to what the motor holds.
         if hunt.has_extra and lasting < 1.0:
             hunt.lowered, hunt.lowered_by = True, ""
         hunt.requirements = weaker(hunt.requirements, peak, lasting)
     return None
+
+
+def _more_again(
+    hunt: Hunt, search: Callable[[], Found | None], found: Found, too_much: Requirements
+) -> Found:
+    """A design for more torque than was found, but less than what shafts were far too weak for.
+
+    Shafts of other cam bearings than those that were the best for that may bear nearly all of it.
+    """
+    while too_much.peak_torque > _AGAIN * hunt.requirements.peak_torque:
+        least = hunt.requirements
+        share = math.sqrt(least.peak_torque / too_much.peak_torque)
+        hunt.requirements = weaker(too_much, share, share)
+        if hunt.requirements.peak_torque in {least.peak_torque, too_much.peak_torque}:
+            hunt.requirements = least
+            break
+        more = search()
+        if more is None:
+            too_much, hunt.requirements = hunt.requirements, least
+        else:
+            found = more
+    return found
 
 
 def _in_vain(hunt: Hunt, search: Callable[[], Found | None]) -> bool:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from cqdd_design.catalog.bearings import find_bearing
 from cqdd_design.catalog.materials import find_material
-from cqdd_design.catalog.motors import Motor
+from cqdd_design.catalog.motors import Motor, find_motor
 from cqdd_design.design import Requirements
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.gearbox.checks import allowables
@@ -208,6 +208,11 @@ class Hunt:
         self.solved[_SOLVED:] = []
         self.solved.insert(0, found)
         return found
+
+    @property
+    def motor_row(self) -> Motor:
+        """The motor that is sized for."""
+        return self.motor or find_motor(self.requirements.motor)
 
     @property
     def fixed(self) -> tuple[object, ...]:

@@ -72,6 +72,9 @@ class SizingInfeasibleError(InfeasibleError):
         length, m; None where none does that goes into the motor's bore.
     length_needed : float or None
         Shortest pack, likewise, that carries it in the same ring, m.
+    ratio_needed : int or None
+        Least ratio at which the motor reaches the torque in the same space; looked for only where
+        the motor falls short through any gearbox.
     """
 
     def __init__(
@@ -83,6 +86,7 @@ class SizingInfeasibleError(InfeasibleError):
         most_lasting_torque: float | None = None,
         outer_diameter_needed: float | None = None,
         length_needed: float | None = None,
+        ratio_needed: int | None = None,
     ) -> None:
         super().__init__(message)
         self.binding = binding
@@ -90,6 +94,7 @@ class SizingInfeasibleError(InfeasibleError):
         self.most_lasting_torque = most_lasting_torque
         self.outer_diameter_needed = outer_diameter_needed
         self.length_needed = length_needed
+        self.ratio_needed = ratio_needed
 
     def to_dict(self) -> dict[str, object]:
         """The JSON form."""
@@ -99,6 +104,7 @@ class SizingInfeasibleError(InfeasibleError):
             "most_continuous_torque_Nm": self.most_lasting_torque,
             "outer_diameter_needed_mm": _in_mm(self.outer_diameter_needed),
             "length_needed_mm": _in_mm(self.length_needed),
+            "ratio_needed": self.ratio_needed,
         }
 
 

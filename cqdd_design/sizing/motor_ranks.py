@@ -7,15 +7,15 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 
-from cqdd_design.catalog.motors import COPPER_REFERENCE, MAGNET_COEFFICIENT, Motor
+from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Requirements
-from cqdd_design.design.motor import MotorTable
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.gearbox.checks.allowables import REDUCER_EFFICIENCY
 from cqdd_design.gearbox.film.mixed import BOUNDARY_FRICTION
 from cqdd_design.geometry.scale import largest_ring
 from cqdd_design.sizing.frame import Goal, search_frame
 from cqdd_design.sizing.goals import tied, untied
+from cqdd_design.sizing.motor_reach import reach
 from cqdd_design.sizing.result import SizedDesign
 from cqdd_design.sizing.search import Search
 from cqdd_design.sizing.spaces import FITS, Space, spaces
@@ -123,7 +123,7 @@ def screened(
     gearboxes: dict[float, _Gearbox] = {}
     found = []
     for motor in rows:
-        short = _short(requirements, motor)
+        short = _short(requirements, motor, ambient)
         if short is not None:
             found.append(short)
             continue
@@ -188,18 +188,11 @@ def losses_share(requirements: Requirements, motor: Motor, friction: float) -> f
     return friction + (copper + drag * speed) * n / (requirements.continuous_torque * speed)
 
 
-def _short(requirements: Requirements, motor: Motor) -> Ranked | None:
+def _short(requirements: Requirements, motor: Motor, ambient: float | None) -> Ranked | None:
     """What a motor falls short of by its own figures, whatever the gearbox; None where nothing."""
-    usual, constant = MotorTable(), motor.torque_constant or 0.0
-    voltage = requirements.voltage or usual.voltage
-    limit = requirements.current or usual.current_limit
-    if motor.line_resistance:
-        limit = min(limit, voltage / motor.line_resistance)
-    shaft = min(motor.peak_torque or 0.0, constant * limit)
+    most = reach(requirements, motor, ambient)
+    shaft, speed, voltage = most.torque, most.speed, most.voltage
     torque = shaft * requirements.ratio * REDUCER_EFFICIENCY
-    # Warm magnets turn faster: the speed at which their EMF is the whole supply.
-    warm = 1.0 - MAGNET_COEFFICIENT * (motor.winding_most - COPPER_REFERENCE)
-    speed = voltage / (constant * warm) if constant else 0.0
     peak, fast = requirements.peak_torque, requirements.input_speed
     if torque < peak:
         return _refused(

@@ -12,18 +12,21 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
-from cqdd_design.catalog.motors import Motor, find_motor
+from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Requirements
+from cqdd_design.design.requirements import MOST_RATIO
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.gearbox.checks.guide import CHECK_GUIDE
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.geometry.scale import largest_ring
-from cqdd_design.sizing.able import CONTINUOUS, PEAK, TooHotError
+from cqdd_design.sizing.able import CONTINUOUS, EFFICIENCY, PEAK, TooHotError, first_guess
 from cqdd_design.sizing.bearable import LEAST, both_bearable, weaker
 from cqdd_design.sizing.frame import Goal
 from cqdd_design.sizing.hunt import Hunt, Progress
 from cqdd_design.sizing.infeasible import WORDS, SizingInfeasibleError, listed
 from cqdd_design.sizing.kinds import ranked
+from cqdd_design.sizing.motor_reach import PEAK_LINE, MotorShortError
+from cqdd_design.sizing.stage_tables import stage_tables
 from cqdd_design.sizing.verified import VerifiedDesign, new_hunt, searched
 
 _MOST = 2.5
@@ -125,12 +128,19 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
         hunt.say("looking for the torques that fit")
         less = _less_torque(hunt, refusal)
     ways, needed, still = [], {}, {}
-    most = lasting = None
+    most = lasting = ratio = None
     if less.found is not None:
         fits = less.found.sizing.design.requirements
         most, lasting = fits.peak_torque, fits.continuous_torque
         ways.append(f"peak_torque {most:g} N*m with continuous_torque {lasting:g} N*m")
-    if not less.hopeless:
+    if isinstance(refusal, MotorShortError):
+        if PEAK_LINE in refusal.binding:
+            hunt.say("looking for the least ratio that fits")
+            ratio, tried, short = _least_ratio(hunt, asked, refusal.torque)
+            ways += [] if ratio is None else [f"ratio {ratio}"]
+            if short:
+                still[f"ratio {tried}"] = short
+    elif not less.hopeless:
         # What torque nobody stated has to fit is not known before a search.
         doubtful = PEAK in asked.derived or _Way(hunt, None, refusal).doubtful
         for key, limit in _limits(hunt):
@@ -144,24 +154,59 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
         told = f"What fits, by the whole verdict: {', or '.join(ways)}."
     elif less.refusal is not None and less.refusal is not refusal:
         told = f"Less torque does not help: {_why(less.refusal)}."
+    elif isinstance(refusal, MotorShortError):
+        told = ""
     else:
         told = "No larger ring and no longer discs were found that do, by the whole verdict."
     if still:
         words = _titles(line for lines in still.values() for line in lines)
         told += f" With {' or '.join(still)} it is still short of {words}."
     return SizingInfeasibleError(
-        f"{refusal.message.rstrip('.')}. {told}",
+        f"{refusal.message.rstrip('.')}. {told}".rstrip(),
         binding=refusal.binding,
         most_torque=most,
         most_lasting_torque=lasting,
         outer_diameter_needed=needed.get("outer_diameter"),
         length_needed=needed.get("length"),
+        ratio_needed=ratio,
     )
+
+
+def _least_ratio(
+    hunt: Hunt, asked: Requirements, shaft: float
+) -> tuple[int | None, int, tuple[str, ...]]:
+    """The least ratio that fits, if any; that which was tried first, and what it is short of.
+
+    Parameters
+    ----------
+    shaft : float
+        Torque of the motor at most, N m.
+    """
+    usual = math.ceil(asked.peak_torque / (EFFICIENCY * shaft))
+    first = min(max(usual, asked.ratio + 1), MOST_RATIO)
+    found = None
+    for ratio in range(first, asked.ratio, -1):
+        changed = asked.unchecked_copy({"ratio": ratio})
+        way = _tried(replace(hunt, tables=stage_tables(ratio)), changed)
+        if way.found is None:
+            lines = way.refusal.binding if isinstance(way.refusal, SizingInfeasibleError) else ()
+            return found, first, () if found else lines
+        found = ratio
+    return found, first, ()
 
 
 def _less_torque(hunt: Hunt, refusal: SizingInfeasibleError) -> _Way:
     """A search for torques that fit: less of that alone which is short, where that is enough."""
     asked, short = hunt.requirements, set(refusal.binding)
+    if isinstance(refusal, MotorShortError):
+        # A continuous torque that is stated stays where the motor holds it.
+        for torques in dict.fromkeys(
+            (frozenset({PEAK, *asked.derived}), frozenset({PEAK, CONTINUOUS}))
+        ):
+            way = _tried(hunt, first_guess(asked.deriving(*torques), hunt.motor))
+            if way.found is not None:
+                break
+        return way
     for change in _what_the_judged_has(asked, refusal):
         way = _tried(hunt, asked.unchecked_copy(change))
         if way.found is not None:
@@ -222,7 +267,7 @@ def _new(hunt: Hunt, asked: Requirements) -> Hunt:
 def _limits(hunt: Hunt) -> Iterator[tuple[str, float]]:
     """Keys of the space, and how large they may become, m."""
     asked = hunt.requirements
-    bore = (hunt.motor or find_motor(asked.motor)).bore_diameter
+    bore = hunt.motor_row.bore_diameter
     ring = _MOST * asked.outer_diameter if bore is None else largest_ring(bore)
     for key, most in (("outer_diameter", ring), ("length", _MOST * asked.length)):
         limit = math.floor(most / _STEP + _ROUNDING) * _STEP

@@ -32,6 +32,7 @@ from cqdd_design.sizing.looks import (
     motor_far_short,
     take,
 )
+from cqdd_design.sizing.motor_reach import refuse_weak_motor
 from cqdd_design.sizing.refusals import TRIALS, least_margin, nothing, refused, unsettled
 from cqdd_design.sizing.result import SizingResult
 from cqdd_design.sizing.rings import finer
@@ -123,6 +124,7 @@ def searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
     for: that is what refusals name as the nearest, so whoever asks for it has to find it.
     """
     goal = hunt.goal
+    refuse_weak_motor(hunt.requirements, hunt.motor_row, hunt.ambient)
     try:
         return _searched(hunt, requirements)
     except SizingInfeasibleError:

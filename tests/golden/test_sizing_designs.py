@@ -74,4 +74,5 @@ def test_what_does_not_fit_and_what_would(given, most, lasting, ring, binding):
         "most_continuous_torque_Nm": lasting,
         "outer_diameter_needed_mm": ring,
         "length_needed_mm": None,
+        "ratio_needed": None,
     }

@@ -312,8 +312,33 @@ def test_torques_fall_to_what_the_best_of_the_shafts_bears(monkeypatch: pytest.M
     # Never by more than half at once, nor by less than a twentieth.
     for bears, peak in ((0.1, 15.0), (0.99, 14.0)):
         hunt.shaft_bears = bears
-        assert or_weaker(hunt, iter([None, sound]).__next__) is sound
+        assert or_weaker(hunt, iter([None, sound, None, None, None, None]).__next__) is sound
         assert hunt.requirements.peak_torque == peak
+
+
+def test_after_a_long_step_down_torques_between_are_tried(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Shafts of other cam bearings may bear nearly all of what was far too much for the first."""
+    hunt = hunt_for(asked(10, 40.0, 4.0, 1000.0).deriving("peak_torque", "continuous_torque"))
+    monkeypatch.setattr("cqdd_design.sizing.bearable.bearable", lambda *_: Borne(2.0, 3.0, "6903"))
+    hunt.shaft_bears = 0.1
+    tried: list[float] = []
+
+    def search() -> Any:
+        peak = hunt.requirements.peak_torque
+        tried.append(peak)
+        return SimpleNamespace(weak=(), peak=peak) if peak <= 33.0 else None
+
+    found: Any = or_weaker(hunt, search)
+    assert tried[:3] == [40.0, 19.0, 27.0]
+    assert 33.0 / 1.06 < found.peak <= 33.0
+    assert hunt.requirements.peak_torque == found.peak == max(one for one in tried if one <= 33.0)
+    assert hunt.requirements.continuous_torque == pytest.approx(0.1 * found.peak, rel=0.06)
+    # A short step is taken back by nothing.
+    hunt, tried[:] = hunt_for(hunt.requirements), []
+    hunt.requirements = asked(10, 40.0, 4.0, 1000.0).deriving("peak_torque", "continuous_torque")
+    hunt.shaft_bears = 0.8
+    assert or_weaker(hunt, search) is not None
+    assert tried == [40.0, 31.0]
 
 
 def weak(*margins: tuple[str, float | None]) -> Any:
@@ -372,7 +397,7 @@ def test_torque_is_not_lowered_for_what_it_does_not_help(monkeypatch: pytest.Mon
 
         def search() -> Any:
             tried.append(hunt.requirements.peak_torque)
-            return _with_a_shaft(hunt, next(turns))
+            return _with_a_shaft(hunt, next(turns, [pulled]))
 
         return search
 
@@ -392,7 +417,9 @@ def test_torque_is_not_lowered_for_what_it_does_not_help(monkeypatch: pytest.Mon
     assert or_weaker(hunt, search, pulled) is sound
     assert tried[:2] == [40.0, pytest.approx(4.0, rel=0.06)]
     assert 20.0 < tried[2] < 40.0
-    assert len(tried) == 4
+    assert hunt.requirements.peak_torque == tried[3]
+    # Between what was too much and what was found, nothing else is.
+    assert all(tried[3] < one < tried[2] for one in tried[4:])
     assert 0.5 * tried[2] <= tried[3] < tried[2]
 
 

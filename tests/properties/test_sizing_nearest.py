@@ -72,6 +72,7 @@ def test_torques_and_the_least_length_are_told(monkeypatch):
         "most_continuous_torque_Nm": 5.0,
         "outer_diameter_needed_mm": None,
         "length_needed_mm": 13.5,
+        "ratio_needed": None,
     }
     assert tried == [
         "first",

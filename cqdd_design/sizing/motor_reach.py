@@ -1,0 +1,112 @@
+"""What a motor reaches through any gearbox at all, by its own figures."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from cqdd_design.catalog.motors import COPPER_REFERENCE, MAGNET_COEFFICIENT, Motor
+from cqdd_design.design import Requirements
+from cqdd_design.design.actuator import Environment
+from cqdd_design.design.motor import MotorTable
+from cqdd_design.sizing.able import PEAK
+from cqdd_design.sizing.infeasible import SizingInfeasibleError
+
+PEAK_LINE = "MOTOR-PEAK"
+_RPM = 30.0 / math.pi
+
+
+class Reach(NamedTuple):
+    """The most that a motor's figures, its driver and the supply allow.
+
+    Attributes
+    ----------
+    torque : float
+        At the shaft, N m; infinite where neither its constant nor its peak torque is known.
+    current : float
+        That makes it, A, unless the motor's own peak torque is less.
+    speed : float
+        Without load, rad/s; infinite where its constant is not known.
+    voltage : float
+        Of the supply, V.
+    """
+
+    torque: float
+    current: float
+    speed: float
+    voltage: float
+
+
+def reach(requirements: Requirements, motor: Motor, ambient: float | None) -> Reach:
+    """The most torque and speed of a motor.
+
+    So that no motor is lost which a closer model would pass, its magnets are as cold as the air for
+    the torque where that is colder than its figures were taken at, and as warm as the winding may
+    be for the speed: warm magnets turn faster.
+
+    Parameters
+    ----------
+    ambient : float or None
+        Of the air, deg C; None for that of a design that says nothing.
+    """
+    usual, constant = MotorTable(), motor.torque_constant
+    voltage = requirements.voltage or usual.voltage
+    limit = requirements.current or usual.current_limit
+    if motor.line_resistance:
+        limit = min(limit, voltage / motor.line_resistance)
+    own = math.inf if motor.peak_torque is None else motor.peak_torque
+    if constant is None:
+        return Reach(own, limit, math.inf, voltage)
+    air = Environment().ambient if ambient is None else ambient
+    cold = 1.0 + MAGNET_COEFFICIENT * max(COPPER_REFERENCE - air, 0.0)
+    warm = 1.0 - MAGNET_COEFFICIENT * (motor.winding_most - COPPER_REFERENCE)
+    return Reach(min(own, cold * constant * limit), limit, voltage / (constant * warm), voltage)
+
+
+class MotorShortError(SizingInfeasibleError):
+    """The motor falls short of what is stated whatever the gearbox is.
+
+    Attributes
+    ----------
+    torque : float
+        Of the motor's shaft at most, N m.
+    """
+
+    def __init__(self, message: str, binding: tuple[str, ...], torque: float) -> None:
+        super().__init__(message, binding=binding, most_torque=None)
+        self.torque = torque
+
+
+def refuse_weak_motor(requirements: Requirements, motor: Motor, ambient: float | None) -> None:
+    """Raise where a motor cannot do what is stated even through a gearbox without losses.
+
+    Raises
+    ------
+    MotorShortError
+    """
+    most, ratio = reach(requirements, motor, ambient), requirements.ratio
+    peak, fast = requirements.peak_torque, requirements.input_speed
+    told, binding = [], []
+    if PEAK not in requirements.derived and ratio * most.torque < peak:
+        why = "its own peak torque"
+        if motor.peak_torque is None or most.torque < motor.peak_torque:
+            why = f"{most.current:.4g} A"
+        binding.append(PEAK_LINE)
+        told.append(
+            f"{most.torque:.4g} N*m at the shaft ({why}) are {ratio * most.torque:.4g} of {peak:g} "
+            f"N*m at ratio {ratio} without any loss in the gearbox"
+        )
+    if most.speed < fast:
+        binding.append("MOTOR-SPEED")
+        told.append(
+            f"{most.voltage:g} V turn it at {most.speed * _RPM:.0f} of {fast * _RPM:.0f} rpm at "
+            "most, warm and without load"
+        )
+    if told:
+        ways = "Ask for less torque, raise the ratio" if PEAK_LINE in binding else "Ask for less"
+        raise MotorShortError(
+            f"no gearbox makes motor '{motor.name}' do what is asked: {'; '.join(told)}. {ways}, "
+            "or take another motor (--motor any tries all of the catalogue).",
+            tuple(binding),
+            most.torque,
+        )
