@@ -127,10 +127,7 @@ def _first_limit(gearbox: CarriedTorque | None) -> dict[str, float]:
 
 def stall_torque(parameters: ActuatorParameters, gearbox: CarriedTorque | None = None) -> Metric:
     """Locked output, current ramped to the driver's limit, or to the motor's peak torque."""
-    motor = parameters.motor
-    limit = parameters.drive.current_limit
-    if math.isfinite(motor.peak_torque):
-        limit = min(limit, motor.peak_torque / motor.torque_constant)
+    limit = parameters.peak_current
     torques, trace = _locked_torque(parameters, limit)
     return Metric(
         "stall_torque",
