@@ -227,7 +227,7 @@ def _sampled(
     if own < 0.99 * rate:
         raise UsageError(
             f"{path.name} is sampled at {own:.4g} Hz, slower than the {rate:g} Hz wanted; more "
-            f'samples hold no more: use --rate "{own:.3g} Hz".'
+            f'samples hold no more: use --rate "{round(own, 3):g} Hz".'
         )
     wanted = times[0] + np.arange(math.floor((times[-1] - times[0]) * rate + 1e-6) + 1) / rate
     if own < 1.01 * rate:
