@@ -45,7 +45,7 @@ class JointSide:
     stall_torque : float
         At full voltage if the drive did not limit current, without losses, N m.
     peak_torque : float
-        The same with the drive's limit, N m.
+        The same with the drive's limit, and no more than the motor's own peak torque, N m.
     continuous_torque : float
         Held for ever at standstill by the thermal model, winding and magnets at the winding's
         limit, without losses, N m.
@@ -91,7 +91,7 @@ def joint_side(parameters: ActuatorParameters) -> JointSide:
     n = abs(parameters.gear.ratio)
     constant = n * motor.torque_constant
     stall_current = volts / motor.resistance
-    peak_current = min(stall_current, drive.current_limit)
+    peak_current = min(stall_current, parameters.peak_current)
     held = float(torque_constant_at(motor, thermal.most)) * continuous_current(motor, thermal)
     return JointSide(
         reduction=n,
@@ -177,7 +177,7 @@ def backdrive_dynamic(parameters: ActuatorParameters, speed: float = 0.0) -> flo
 def delivered_peak_torque(parameters: ActuatorParameters, side: JointSide) -> float:
     """Peak torque at the joint in slow motion, N m; 0 where friction holds the motor.
 
-    Of the motor's torque at the current limit its Coulomb friction is taken off; of the rest the
+    Of the motor's peak torque its Coulomb friction is taken off; of the rest the
     gear passes on T where T (1 + f) comes in, and the output side's Coulomb friction takes the
     last part.
     """
@@ -188,7 +188,7 @@ def delivered_peak_torque(parameters: ActuatorParameters, side: JointSide) -> fl
 
 
 def held_back_torque(parameters: ActuatorParameters, side: JointSide) -> float:
-    """Friction under load on a locked output at the current limit, N m at the joint.
+    """Friction under load on a locked output at the peak torque, N m at the joint.
 
     With the coefficient F at rest, which exceeds that in motion by the Stribeck share, T (1 + F)
     of the motor holds T at the output: F/(1 + F) of the peak torque is lost.

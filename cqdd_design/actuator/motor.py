@@ -19,6 +19,9 @@ from numpy.typing import ArrayLike
 from cqdd_design.actuator.parameters import DriveParameters, FloatArray, MotorParameters
 from cqdd_design.catalog.motors import CONVENTIONS, COPPER_COEFFICIENT, MAGNET_COEFFICIENT
 
+_SLACK = 0.005
+"""Of a peak torque that is met and not exceeded, as a share."""
+
 
 def motor_constants(torque_constant: float) -> dict[str, float]:
     """K of the DC machine, N m/A, in each of `CONVENTIONS`, N m/A or V s/rad.
@@ -30,6 +33,21 @@ def motor_constants(torque_constant: float) -> dict[str, float]:
     (0.1504, 0.2126)
     """
     return {name: share * torque_constant for name, share in CONVENTIONS.items()}
+
+
+def beyond_peak(motor: MotorParameters, currents: ArrayLike) -> str:
+    """A sentence where currents (A) give more than the motor's own peak torque; else empty.
+
+    A drive keeps its own limit, whatever the motor bears.
+    """
+    share = float(np.mean(np.abs(currents) > (1.0 + _SLACK) * motor.peak_current))
+    if share == 0.0:
+        return ""
+    return (
+        f"the motor gives more than its own peak torque of {motor.peak_torque:g} N*m in "
+        f"{share:.2%} of the records, which its catalogue does not allow; lower "
+        f"motor.current_limit to {motor.peak_current:.3g} A, or ask for less."
+    )
 
 
 def resistance_at(motor: MotorParameters, temperature: ArrayLike) -> FloatArray:

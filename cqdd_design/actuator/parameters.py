@@ -103,6 +103,13 @@ class MotorParameters:
                 _refuse("motor", key, getattr(self, key), "1 or more", "count pairs or periods")
 
     @property
+    def peak_current(self) -> float:
+        """Of its own peak torque, A; infinite where its catalogue gives none."""
+        if math.isfinite(self.peak_torque):
+            return self.peak_torque / self.torque_constant
+        return math.inf
+
+    @property
     def dry_drag(self) -> float:
         """Drag torque of the motor alone that does not depend on speed, N m."""
         return self.coulomb + self.hysteresis
@@ -378,6 +385,11 @@ class ActuatorParameters:
     def torque_limit(self) -> float:
         """What the driver's current gives at the joint if nothing rubs, N m."""
         return self.motor.torque_constant * self.drive.current_limit * abs(self.gear.ratio)
+
+    @property
+    def peak_current(self) -> float:
+        """What the driver gives and the motor's own peak torque allows, A."""
+        return min(self.drive.current_limit, self.motor.peak_current)
 
     @property
     def sensor_stiffness(self) -> float:

@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.actuator.columns import TRACES
+from cqdd_design.actuator.motor import beyond_peak
 from cqdd_design.actuator.packing import largest_step, rounded_down, safe_step
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.scenario import Chirp, Command, Load, Sampled, Scenario, Signal, Sine
@@ -262,6 +263,7 @@ class Recording:
             share = float(np.mean(np.abs(values) >= 0.995 * limit))
             if share > 0.0:
                 told.append(f"the {name} of {limit:g} {unit} binds in {share:.2%} of the records.")
+        told += filter(None, [beyond_peak(first.motor, run.current)])
         orders = max(int(np.max(one.gear.error_orders, initial=0)) for one in self.parameters)
         swept = orders * float(np.max(np.abs(run.output_speed))) * run.step
         if swept > 1.0:

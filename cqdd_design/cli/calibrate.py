@@ -118,14 +118,17 @@ def _lines(found: Calibration) -> list[str]:
         for name, value in found.factors.items()
     ]
     good = [measurement(row.name) for row in found.within]
+    told = (
+        f"{len(good)} of {len(found.predicted)} predicted rows are within 20 % (efficiency: "
+        f"5 points): {'; '.join(good) or 'none'}."
+        if found.predicted
+        else "No measured row is left to tell how well the others are predicted."
+    )
     lines = [
         table(rows, head=head, right=(2, 3, 4, 5)),
         "",
         table(fitted, head=["unknown", "is", "within", ""]),
         "",
-        *folded(
-            f"{len(good)} of {len(found.predicted)} predicted rows are within 20 % (efficiency: "
-            f"5 points): {'; '.join(good) or 'none'}."
-        ),
+        *folded(told),
     ]
     return lines

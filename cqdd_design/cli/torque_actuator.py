@@ -2,15 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cqdd_design.cli.session import Output, read_factors
+from cqdd_design.errors import UsageError
 
 if TYPE_CHECKING:
     from cqdd_design.actuator.parameters import ActuatorParameters
     from cqdd_design.design import Design
     from cqdd_design.torque.data.episodes import DataSet
+
+
+def refuse_without_design(design: Path | None, given: Mapping[str, object]) -> None:
+    """Refuse options, name to value, that say more of a design where none is named."""
+    for name, value in given.items():
+        if design is None and value is not None:
+            raise UsageError(f"{name} belongs to a design; give it with --design.")
 
 
 def data_actuator(

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 from cqdd_design.cli.options import Calibrated, Force, NamedMotor, OwnMotor, option, parse_names
 from cqdd_design.cli.session import Output, read_design
 from cqdd_design.cli.tables import number, table
-from cqdd_design.cli.torque_actuator import data_actuator
-from cqdd_design.errors import UsageError
+from cqdd_design.cli.torque_actuator import data_actuator, refuse_without_design
 
 if TYPE_CHECKING:
     from cqdd_design.torque.evaluation.bootstrap import Interval
@@ -61,13 +60,9 @@ def evaluate(
     for target in (report, markdown):
         if target is not None:
             refuse_overwrite(target, force=force)
-    for name, given in (
-        ("--calibration", calibration),
-        ("--motor", motor),
-        ("--motor-file", motor_file),
-    ):
-        if design is None and given is not None:
-            raise UsageError(f"{name} belongs to a design; give it with --design.")
+    refuse_without_design(
+        design, {"--calibration": calibration, "--motor": motor, "--motor-file": motor_file}
+    )
     known = read_data(data)
     networks = read_networks(model or [], known)
     actuator = None

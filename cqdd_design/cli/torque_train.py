@@ -20,13 +20,14 @@ from cqdd_design.cli.options import (
 )
 from cqdd_design.cli.session import Output, read_design
 from cqdd_design.cli.tables import number, table
-from cqdd_design.cli.torque_actuator import data_actuator
+from cqdd_design.cli.torque_actuator import data_actuator, refuse_without_design
 from cqdd_design.environment import output_folder
 from cqdd_design.errors import UsageError
 
 if TYPE_CHECKING:
     from cqdd_design.torque.networks.artefact import Artefact, Mode
-    from cqdd_design.torque.training.recipe import Choice
+    from cqdd_design.torque.networks.modules import Model
+    from cqdd_design.torque.training.recipe import Choice, Recipe
     from cqdd_design.torque.training.schedule import Reading
 
 
@@ -134,6 +135,9 @@ def train(
         orders=orders,
         threads=threads,
     )
+    own = {"--motor": motor, "--motor-file": motor_file}
+    refuse_without_design(design, {"--gearbox": gearbox, "--calibration": calibration, **own})
+    _refuse_unread(chosen, design, recipe)
     dt = parse_positive("--sample-time", sample_time, TIME)
     require_torch()
     place = target or output_folder("exports") / f"{chosen.name}-seed-{seed}.npz"
@@ -187,6 +191,23 @@ def train(
     out.say(*_lines(artefact))
     out.wrote([file])
     out.document(_results(artefact), files=[file])
+
+
+def _refuse_unread(model: Model, design: Path | None, recipe: Recipe) -> None:
+    """Refuse what says something of an actuator to a network that knows none."""
+    from cqdd_design.torque.networks.modules import MODELS
+
+    knowing = [one.name for one in MODELS.values() if one.needs_actuator]
+    phased = [one.name for one in MODELS.values() if one.phase]
+    for name, given, takers in (
+        ("--design", design is not None, knowing),
+        ("--orders", recipe.orders != type(recipe).orders, phased),
+    ):
+        if given and model.name not in takers:
+            raise UsageError(
+                f"{name} does not belong to --model {model.name}; leave it out, or train "
+                f"{' or '.join(takers)}."
+            )
 
 
 def _results(artefact: Artefact) -> dict[str, Any]:

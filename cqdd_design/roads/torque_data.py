@@ -82,12 +82,21 @@ def generate(
     target = folder or output_folder("exports") / f"{design.name}-torque"
     files = write_data(data, target, force=force or folder is None)
     facts = describe(data)
-    if facts["episodes_infeasible"] or facts["episodes_saturated"]:
-        warnings = (
-            *warnings,
-            f"{facts['episodes_infeasible']} of {facts['episodes']} targets cannot be followed "
-            f"exactly by this actuator, and {facts['episodes_saturated']} episodes saturate it, "
-            f"{facts['saturated_share']:.1%} of all samples; they are kept and flagged.",
-        )
+    told = _limits_met(facts)
+    if told:
+        warnings = (*warnings, told)
     facts = {**facts, "infeasible": data.facts["infeasible"]}
     return GeneratedData(target, files, facts, warnings)
+
+
+def _limits_met(facts: Mapping[str, Any]) -> str:
+    """A sentence on targets that no drive can follow, and on drives that saturate; else empty."""
+    told = []
+    if facts["episodes_infeasible"]:
+        of = f"{facts['episodes_infeasible']} of {facts['episodes']} targets"
+        told.append(f"{of} cannot be followed exactly by this actuator")
+    if facts["episodes_saturated"]:
+        of = f"{facts['episodes_saturated']} of {facts['episodes']} episodes"
+        what = "it" if told else "the drive"
+        told.append(f"{of} saturate {what}, {facts['saturated_share']:.1%} of all samples")
+    return f"{', and '.join(told)}; they are kept and flagged." if told else ""

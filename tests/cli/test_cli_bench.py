@@ -12,9 +12,12 @@ from actuator_samples import paper_actuator
 from terminal_lines import too_wide
 
 from cqdd_design.actuator.bench import METRICS, BenchResult, run_bench
+from cqdd_design.actuator.bench.calibrate import Calibration, Row
 from cqdd_design.actuator.bench.metric import Metric
+from cqdd_design.actuator.bench.unknowns import Fit
 from cqdd_design.catalog.paper import METRICS as PAPER
 from cqdd_design.cli.bench import _lines
+from cqdd_design.cli.calibrate import _lines as calibrated_lines
 from cqdd_design.cli.main import run
 from cqdd_design.report.actuator.bench_table import bench_row
 
@@ -222,3 +225,17 @@ def test_like_names_of_unlike_figures_are_told_apart(cqdd, paper_design_file):
     words = " ".join(done.out.split())
     assert "continuous torque, standing, is of an output at rest, the continuous torque" in words
     assert too_wide(done.out) == []
+
+
+@pytest.mark.parametrize(
+    ("measured", "told"),
+    [
+        (None, "No measured row is left to tell how well the others are predicted."),
+        (2.0, "1 of 1 predicted rows are within 20 % (efficiency: 5 points): mass."),
+    ],
+)
+def test_a_fit_to_all_that_was_measured_predicts_nothing_that_could_be_judged(measured, told):
+    row = Row("mass", "kg", measured, 2.1, 2.1, "predicted")
+    bench = BenchResult("a", (), beside_paper=False, voltage=24.0, seconds=0.0)
+    found = Calibration(paper_actuator(), Fit({}, ()), (row,), bench, {})
+    assert told in " ".join(calibrated_lines(found))

@@ -49,6 +49,19 @@ def test_a_record_too_coarse_for_its_signal_says_so(cqdd, tmp_path):
     assert "current, r.m.s." in fine.out
 
 
+def test_a_motor_beyond_its_own_peak_torque_is_told(cqdd, tmp_path):
+    (tmp_path / "weak.toml").write_text('peak_torque = "4 N*m"\n', "utf-8")
+    words = (
+        *("simulate", DESIGN, "--motor-file", "weak.toml", "--load", "locked"),
+        *("--duration", "50 ms", "--force"),
+    )
+    told = "the motor gives more than its own peak torque of 4 N*m"
+    beyond = cqdd(*words, "--amplitude", "60 N*m")
+    assert beyond.code == 0, beyond.err
+    assert told in " ".join(beyond.err.split())
+    assert told not in " ".join(cqdd(*words, "--amplitude", "40 N*m").err.split())
+
+
 def test_a_pendulum_held_at_rest_weighs_what_it_weighs(cqdd, tmp_path):
     """At rest the flange carries m g r sin q, and the angle is off by torque over gain."""
     done = cqdd(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -93,6 +94,17 @@ def test_generate_tells_what_cannot_be_followed(documents, capsys):
     assert "exports/cqdd-10-torque" in shown
     assert Path("exports/cqdd-10-torque/manifest.json").exists()
     assert run(arguments) == 0  # its own output
+
+
+def test_what_is_met_alone_is_told_alone(documents, capsys):
+    """At 14 V all of the short targets could be followed, and some meet the supply."""
+    Path("weak.toml").write_text('peak_torque = "2 N*m"\n', "utf-8")
+    motor = ("--motor-file", "weak.toml")
+    assert run(["torque", "generate", str(DESIGN), *SMALL, "--voltage", "14 V", *motor]) == 0
+    told = capsys.readouterr().err
+    assert "more than its own peak torque of 2 N*m" in told
+    assert re.search(r"warning: \d+ of \d+ episodes saturate the drive", told)
+    assert "cannot be followed" not in told
 
 
 def test_generate_takes_gains_and_a_calibration(documents, tmp_path):

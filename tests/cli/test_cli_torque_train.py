@@ -126,6 +126,11 @@ def test_hyperparameters_come_from_another_network(run, tmp_path):
         (("--resume",), "no checkpoint"),
         (("--sample-time", "10 ms"), "sampled every 0.005 s, not 0.01 s"),
         (("--model", "physics-gru"), "--design"),
+        (("--model", "mlp", "--design", "a.toml"), r"--design does not .* --model mlp"),
+        (("--model", "pva-gru", "--orders", "2"), r"--orders does not .* or train phase-gru\."),
+        (("--gearbox", "3"), "--gearbox belongs to a design"),
+        (("--motor", "CubeMars RO100 KV55"), "--motor belongs to a design"),
+        (("--calibration", "c.json"), "--calibration belongs to a design"),
         (("--data", "nowhere"), "holds no data set"),
         (("--split", "mass"), "mass"),
     ],
@@ -157,6 +162,9 @@ def test_the_inflated_score_of_random_windows_stands_beside(run, tmp_path):
     # All test windows have their neighbours in training, and the episodes of 160 samples overlap.
     assert 0.0 < facts["leaked_rmse_Nm"] < facts["validation_rmse_Nm"]
     assert facts["split"]["protocol"] == "trajectory"
+    strides = ("--model", "mlp-baseline", "--out", "m.npz", "--leaked", "--stride", "16")
+    run(*strides, "--epochs", "1")
+    assert read_artefact(tmp_path / "m.npz").facts["leaked_rmse_Nm"] > 0.0
 
 
 def test_ctrl_c_ends_a_real_process_with_130_and_its_checkpoint_knows_its_epochs(folder, tmp_path):

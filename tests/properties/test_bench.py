@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -248,6 +249,15 @@ def test_efficiency_is_that_on_its_voltage_and_beside_no_better_point(
     assert found.value == pytest.approx(best, abs=0.004)
     assert found.value < best + 1e-3
     assert found.details["speed_rpm"] * 10.0 / RPM * motor.torque_constant <= 0.951 * voltage
+
+
+def test_no_efficiency_where_friction_holds_what_the_supply_drives() -> None:
+    machine = resolve(load_design(PAPER))
+    found = measured(actuator_parameters(machine), "efficiency_peak", voltage=0.1)
+    assert found.known is None
+    assert not found.trace
+    assert re.search(r"on 0\.1 V friction holds .* raise the voltage", found.missing)
+    assert measured(actuator_parameters(machine), "efficiency_peak", voltage=5.0).known
 
 
 def test_a_best_efficiency_on_the_edge_is_said(actuator: ActuatorParameters) -> None:

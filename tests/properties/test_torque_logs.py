@@ -13,6 +13,7 @@ from cqdd_design.torque.data.log_checks import check_signals, velocity_factor
 from cqdd_design.torque.data.log_files import LogMap, read_columns, read_map
 from cqdd_design.torque.data.logs import import_logs
 from cqdd_design.torque.data.splits import audit, split
+from cqdd_design.torque.networks.modules import MODELS
 
 NAMES = {"time": "t", "position": "q", "target": "q_des", "velocity": "dq", "torque": "tau"}
 SI = LogMap(NAMES)
@@ -171,6 +172,14 @@ def test_cut_records_split_without_a_leak(tmp_path):
         split(whole, "trajectory", 0)
 
 
+def test_no_window_of_any_network_reaches_over_a_cut_at_a_low_rate(tmp_path):
+    history = max(model.history for model in MODELS.values())
+    truth = motion(60.0, rate=100.0, frequency=0.7713)
+    data = imported(write(tmp_path / "a.csv", truth), cut=4.0, rate=20.0).data
+    assert len(data.episodes) > 8
+    audit(data, split(data, "trajectory", 0), history)
+
+
 def test_a_motion_that_repeats_itself_is_no_matter_for_cutting(tmp_path):
     """Pieces of 2 s every 2.5 s of a noiseless sine of 0.8 Hz are copies of each other."""
     data = imported(write(tmp_path / "a.csv", motion(22.0)), cut=2.0).data
@@ -258,6 +267,8 @@ def test_doubts_are_told_and_the_log_is_kept(tmp_path):
     assert any("opposite sign" in text for text in turned.warnings)
     milli = imported(write(tmp_path / "b.csv", {**truth, "tau": 1e3 * truth["tau"]}))
     assert any("times what the gains ask" in text for text in milli.warnings)
+    still = imported(write(tmp_path / "e.csv", {**truth, "tau": np.zeros(3000)}))
+    assert any("torque stays at 0 N*m while the joint moves" in text for text in still.warnings)
     slow = imported(write(tmp_path / "c.csv", {**truth, "dq": 0.8 * truth["dq"]}))
     assert any("0.8 times the derivative" in text for text in slow.warnings)
     noise = np.random.default_rng(0).normal(size=3000)

@@ -47,6 +47,12 @@ def header(shape, kind="'<f8'"):
     return f"{{'descr': {kind}, 'fortran_order': False, 'shape': {shape}, }}"
 
 
+def test_another_npz_is_no_network(tmp_path):
+    np.savez(tmp_path / "record.npz", metadata="{}", angle=np.zeros(3))
+    with pytest.raises(UsageError, match=r"record\.npz is not a torque network of this program"):
+        read_artefact(tmp_path / "record.npz")
+
+
 TEXT = array(np.array("{}"))
 CRAFTED = {
     "2^40 doubles": packed({"metadata.npy": TEXT, "a.npy": npy(header((2**40,)), b"12345678")}),

@@ -127,10 +127,7 @@ def _first_limit(gearbox: CarriedTorque | None) -> dict[str, float]:
 
 def stall_torque(parameters: ActuatorParameters, gearbox: CarriedTorque | None = None) -> Metric:
     """Locked output, current ramped to the driver's limit, or to the motor's peak torque."""
-    motor = parameters.motor
-    limit = parameters.drive.current_limit
-    if math.isfinite(motor.peak_torque):
-        limit = min(limit, motor.peak_torque / motor.torque_constant)
+    limit = parameters.peak_current
     torques, trace = _locked_torque(parameters, limit)
     return Metric(
         "stall_torque",
@@ -248,7 +245,7 @@ def efficiency_peak(
 
     Around the best point of the grid a finer one is asked, down to no current at all where the best
     lies there; beyond the greatest speed and current nothing is, and a best point at them is said
-    to lie on the edge.
+    to lie on the edge. Where friction holds all of the grid there is no value.
 
     Parameters
     ----------
@@ -268,6 +265,21 @@ def efficiency_peak(
     shares = part if parameters.friction.load_backward >= 1.0 else np.r_[-part[::-1], part]
     speed, current = (grid.ravel() for grid in np.meshgrid(top * part, most * shares))
     grid = _powers(supplied, speed, current)
+    protocol = (
+        f"On {supply:g} V, steady grid of {points} speeds up to {top * RPM:.0f} rpm and {points} "
+        f"currents up to {most:.3g} A in both senses, as far as the supply drives them, and finer "
+        "around the best: mean mechanical over mean electrical power at the motor's terminals, the "
+        f"inverse where it generates; winding at {motor.reference_temperature:g} degC."
+    )
+    if not grid.driving.any():
+        return Metric(
+            "efficiency_peak",
+            math.nan,
+            "predicted",
+            protocol,
+            missing=f"on {supply:g} V friction holds all that up to {most:.3g} A drive, so the "
+            "output gets no power; raise the voltage",
+        )
     best = grid.best
     finer = np.arange(1 - _FINER, _FINER) / (_FINER * points)
     near_speed = top * _within(speed[best] / top + finer)
@@ -298,10 +310,7 @@ def efficiency_peak(
         "efficiency_peak",
         float(near.efficiency[peak]),
         "predicted",
-        f"On {supply:g} V, steady grid of {points} speeds up to {top * RPM:.0f} rpm and {points} "
-        f"currents up to {most:.3g} A in both senses, as far as the supply drives them, and finer "
-        "around the best: mean mechanical over mean electrical power at the motor's terminals, the "
-        f"inverse where it generates; winding at {motor.reference_temperature:g} degC.",
+        protocol,
         details=details,
         trace={
             "speed [rpm]": grid.speed[grid.reached] * RPM,

@@ -99,8 +99,7 @@ def _torque_scale(parameters: ActuatorParameters) -> float:
     motor = parameters.motor
     if math.isfinite(motor.rated_torque):
         return motor.rated_torque
-    most = motor.torque_constant * parameters.drive.current_limit
-    return (min(most, motor.peak_torque) if math.isfinite(motor.peak_torque) else most) / 3.0
+    return motor.torque_constant * parameters.peak_current / 3.0
 
 
 _OVER_SPEED, _OVER_ANGLE = "N*m*s/rad", "N*m/rad"

@@ -187,8 +187,8 @@ def _conventions(card: Card) -> tuple[tuple[str, str], ...]:
         (
             "effort",
             "Settings that limit effort, force or torque hold what a stalled output gives after "
-            f"all friction, {effort.joint:.6g} N m, not the {side.peak_torque:.6g} N m of the "
-            "motor's current: friction under load keeps the difference. A client that takes "
+            f"all friction, {effort.joint:.6g} N m, not the {side.peak_torque:.6g} N m that "
+            "motor and drive allow: friction under load keeps the difference. A client that takes "
             "Coulomb friction off as well takes its part twice.",
         ),
         (

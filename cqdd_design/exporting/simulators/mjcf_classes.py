@@ -21,7 +21,7 @@ from cqdd_design.actuator.joint_side import (
 )
 from cqdd_design.actuator.thermal import single_node
 from cqdd_design.catalog.motors import COPPER_COEFFICIENT
-from cqdd_design.exporting.simulators.stated import effort_limit, provenance
+from cqdd_design.exporting.simulators.stated import effort_limit, peak_limit, provenance
 from cqdd_design.exporting.simulators.xml_text import element, identifier, number, numbers
 
 if TYPE_CHECKING:
@@ -166,7 +166,7 @@ def _motor_attributes(model: MjcfActuator, step: float) -> dict[str, object]:
         "gear": model.side.reduction,
         "resistance": motor.resistance,
         "motorconst": numbers(motor.torque_constant, motor.torque_constant),
-        "saturation": numbers(0.0, drive.current_limit, 0.0),
+        "saturation": numbers(_own_peak(parameters), drive.current_limit, 0.0),
         "thermal": numbers(
             resistance,
             0.0,
@@ -198,10 +198,16 @@ def _motor_attributes(model: MjcfActuator, step: float) -> dict[str, object]:
     return attributes
 
 
+def _own_peak(parameters: ActuatorParameters) -> float:
+    """The motor's own peak torque where the drive gives more, N m; 0, no limit, where not."""
+    motor_binds = parameters.peak_current < parameters.drive.current_limit
+    return parameters.motor.peak_torque if motor_binds else 0.0
+
+
 def _torque(model: MjcfActuator) -> dict[str, object]:
     """Commanded in torque, up to what leaves the bench's stall torque after MuJoCo's friction."""
     parameters = model.parameters
-    most = parameters.motor.torque_constant * parameters.drive.current_limit
+    most = parameters.motor.torque_constant * parameters.peak_current
     stalled = effort_limit(parameters) / model.side.reduction + motor_breakaway(parameters)
     most = min(most, stalled)
     return {
@@ -311,8 +317,8 @@ def remarks(model: MjcfActuator, *, alone: bool) -> list[str]:
         "",
         "Constants: K in N m/A = V s/rad of the equivalent DC machine, resistance and inductance "
         f"line to line. At full voltage: stall torque {number(side.stall_torque)} N m without and "
-        f"{number(side.peak_torque)} N m with the current limit, both before friction, no-load "
-        f"speed {number(side.no_load_speed)} rad/s; reflected inertia "
+        f"{number(side.peak_torque)} N m with {peak_limit(parameters)}, both before friction, "
+        f"no-load speed {number(side.no_load_speed)} rad/s; reflected inertia "
         f"{number(side.reflected_inertia)} kg m^2, all at the joint. On a locked output the "
         f"gearbox's friction under load holds back up to {number(held_back)} N m of the torque "
         "with the limit, which this file does not: the range of a commanded torque ends where the "

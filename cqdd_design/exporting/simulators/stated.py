@@ -24,6 +24,14 @@ def effort_limit(parameters: ActuatorParameters) -> float:
     return stall_torque(parameters).value
 
 
+def peak_limit(parameters: ActuatorParameters) -> str:
+    """Where the peak torque ends, for a sentence."""
+    if parameters.peak_current < parameters.drive.current_limit:
+        amperes = f"{parameters.peak_current:.4g} of the drive's {parameters.drive.current_limit:g}"
+        return f"the motor's own peak torque, {amperes} A"
+    return "the drive's current limit"
+
+
 def value_of(parameters: ActuatorParameters, name: str) -> float:
     """Value of a dotted name such as ``motor.resistance``."""
     found: object = parameters

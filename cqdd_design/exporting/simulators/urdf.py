@@ -12,7 +12,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from cqdd_design.actuator.joint_side import JointSide, joint_side
-from cqdd_design.exporting.simulators.stated import DEAD_MASS, effort_limit, provenance
+from cqdd_design.exporting.simulators.stated import (
+    DEAD_MASS,
+    effort_limit,
+    peak_limit,
+    provenance,
+)
 from cqdd_design.exporting.simulators.xml_text import comment, element, identifier, number
 from cqdd_design.files import WrittenFile, write_atomically
 
@@ -119,7 +124,7 @@ def _remarks(
         f"{number(parameters.gear.ratio)}, so the crank turns {sense} the joint, and the drive's "
         "wiring makes up for it.",
         "",
-        "limit: effort is what the stalled output gives at the drive's current limit after all "
+        f"limit: effort is what the stalled output gives at {peak_limit(parameters)}, after all "
         f"friction, of {number(side.peak_torque)} N m without losses. The current holds up to "
         f"{number(side.corner_speed)} rad/s at "
         f"{number(parameters.drive.supply_voltage)} V and falls to none at velocity, the no-load "

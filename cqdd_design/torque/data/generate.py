@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from cqdd_design.actuator.build import actuator_parameters
+from cqdd_design.actuator.motor import beyond_peak
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.errors import DesignError, UsageError
@@ -174,6 +175,8 @@ def generate(
             f"the winding reaches {found['winding_degC']:.4g} degC; the drive lowers its current "
             f"from {own.thermal.derating_begins:g} degC on."
         )
+    currents = np.concatenate([one.columns["current"] for one in episodes])
+    warnings += filter(None, [beyond_peak(own.motor, currents)])
     drive, limit = own.drive, own.torque_limit
     facts: dict[str, Any] = {
         "source": "simulated",

@@ -118,6 +118,11 @@ def check_signals(
             )
     asked = asked_torque(columns, position_gain, velocity_gain)
     torque = columns["torque"]
+    if np.ptp(torque) == 0.0 and np.ptp(columns["position"]) > 0.0:
+        warnings.append(
+            f"{name}: torque stays at {torque[0]:g} N*m while the joint moves, so that nothing can "
+            "be learned from it; check the column, and whether the drive was on."
+        )
     if np.std(asked) > 0.0 and np.std(torque) > 0.0:
         likeness = float(np.corrcoef(asked, torque)[0, 1])
         slope = likeness * float(np.std(torque) / np.std(asked))

@@ -27,8 +27,9 @@ GAP = 2.5
 """Sample times without a sample, from which a record is split."""
 LEAST_SECONDS = 0.5
 """Shorter pieces are dropped: a network's history fits three times."""
-PURGE_SECONDS = 0.5
-"""Left out between pieces of a record that is cut, so that no window reaches across."""
+PURGE_SECONDS, PURGE_SAMPLES = 0.5, 30
+"""Left out between pieces of a record that is cut, the longer of both: no window of a network, of
+30 samples at most, reaches across at any rate."""
 _FLAGS = ("wall", "saturated")
 
 
@@ -86,7 +87,7 @@ def import_logs(
         Most that the joint can be asked for, N m; default the greatest torque recorded.
     cut : float, optional
         Cut records into pieces of this length, s, each a configuration of its own, with
-        `PURGE_SECONDS` left out between them.
+        `PURGE_SECONDS` left out between them, or `PURGE_SAMPLES`.
 
     Raises
     ------
@@ -226,7 +227,7 @@ def _sampled(
     if own < 0.99 * rate:
         raise UsageError(
             f"{path.name} is sampled at {own:.4g} Hz, slower than the {rate:g} Hz wanted; more "
-            f'samples hold no more: use --rate "{own:.3g} Hz".'
+            f'samples hold no more: use --rate "{round(own, 3):g} Hz".'
         )
     wanted = times[0] + np.arange(math.floor((times[-1] - times[0]) * rate + 1e-6) + 1) / rate
     if own < 1.01 * rate:
@@ -279,7 +280,7 @@ def _cut(
         place = {**group, "record": record, "first": begin}
         yield Episode(name, place, 1.0 / rate, dict(columns))
         return
-    size, purge = round(cut * rate), round(PURGE_SECONDS * rate)
+    size, purge = round(cut * rate), max(round(PURGE_SECONDS * rate), PURGE_SAMPLES)
     for number, first in enumerate(range(0, count, size + purge)):
         last = min(first + size, count)
         if last - first < LEAST_SECONDS * rate:

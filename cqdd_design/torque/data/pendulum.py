@@ -218,9 +218,10 @@ def record(
     width = 14 * seconds * rate + 3 * seconds / step
     batch = int(_MOST_VALUES / width)
     if batch < 1:
+        longest = math.floor(100.0 * _MOST_VALUES / width * seconds) / 100.0
         raise UsageError(
             f"an episode of {seconds:g} s takes {seconds / step:.3g} steps, more than memory "
-            f"holds at once; use --seconds {_MOST_VALUES / width * seconds:.2g} or less."
+            f"holds at once; use --seconds {longest:g} or less."
         )
     count = round(seconds * chain.rate) / chain.rate
     found: list[Episode] = []

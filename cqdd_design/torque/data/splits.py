@@ -26,6 +26,8 @@ PROTOCOLS: Mapping[str, str] = {
 TEST_SHARE, VALIDATION_SHARE = 0.2, 0.15
 LEAST_CONFIGURATIONS = 5
 """One to test on, one to stop by, three to train on."""
+LEAD = 8
+"""Samples before a random window, for the acceleration's differentiator."""
 PLACE = ("record", "first")
 """Keys of a group that say where an episode was cut from, not what was done."""
 
@@ -309,7 +311,7 @@ def _need_fact(data: DataSet, fact: str, key: str, protocol: str) -> None:
 
 
 def random_window_split(
-    data: DataSet, seed: int = 0, *, history: int = 30, lead: int = 8, most: int = 20_000
+    data: DataSet, seed: int = 0, *, history: int = 30, lead: int = LEAD, most: int = 20_000
 ) -> tuple[DataSet, Split]:
     """Random windows on all sides, AS IT SHOULD NOT BE DONE, to show how a score is inflated.
 

@@ -203,6 +203,8 @@ def read_artefact(path: Path) -> Artefact:
     """
     arrays, content = read_arrays(path, _MOST_BYTES, _WHAT)
     told = content.pop("format", None) if isinstance(content, dict) else None
+    if told is None:
+        raise UsageError(f"{path} is not {_WHAT}.")
     if told != FORMAT:
         raise UsageError(f"{path} is {shown(told)}, not '{FORMAT}'; train it anew.")
     require(NETWORK, content, str(path), "train it anew")

@@ -13,7 +13,7 @@ import numpy as np
 
 from cqdd_design.errors import UsageError
 from cqdd_design.torque.data.episodes import DataSet
-from cqdd_design.torque.data.splits import Split, random_window_split
+from cqdd_design.torque.data.splits import LEAD, Split, random_window_split
 from cqdd_design.torque.features.acceleration import differentiator_error, savitzky_golay
 from cqdd_design.torque.features.matrix import phase_inputs, strongest_orders
 from cqdd_design.torque.features.physics import actuator_to_dict, with_gains_of
@@ -225,7 +225,9 @@ def leaked_rmse(data: DataSet, order: Order) -> float:
     """
     torch = require_torch()
     drawn, parts = random_window_split(data, order.seed, history=find_model(order.model).history)
-    order = replace(order, recipe=replace(order.recipe, mode="window"))
+    # Windows are drawn already: a longer stride than what they have beside leaves none of one.
+    stride = min(order.recipe.stride, LEAD)
+    order = replace(order, recipe=replace(order.recipe, mode="window", stride=stride))
     artefact = train(drawn, parts, order)
     known = None if order.actuator is None else with_gains_of(order.actuator, data)
     test = raw(
