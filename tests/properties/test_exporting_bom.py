@@ -119,6 +119,14 @@ def test_bought_parts_can_be_ordered(rows):
     assert "exact profile x 7850 kg/m3" in by_part["ring"]["notes"]
 
 
+def test_both_seats_of_the_shafts_bearings_are_told(rows):
+    (row,) = (row for row in rows if row["part"] == "shaft bearing")
+    assert (
+        "on the eccentric shaft 10 k6, in the housing 22 H7 and the carrier plate 22 H7"
+        in (row["fitting"])
+    )
+
+
 def test_a_motor_that_is_not_drawn_is_the_last_line(paper):
     design = paper.replacing({"motor.name": "MAD 5010 110KV"})
     machine = resolve(design)

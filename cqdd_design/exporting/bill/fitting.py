@@ -74,7 +74,7 @@ def _bearings(machine: Machine, parts: dict[str, Part]) -> dict[str, str]:
             layout.shaft.support.bearing.bore_diameter,
             layout.shaft.support.bearing.outer_diameter,
             parts.values(),
-            ("eccentric shaft", "housing"),
+            ("eccentric shaft", "housing", "carrier plate"),
         ),
         "output bearing": _seated(
             layout.carrier.output.bearing.bore_diameter,
@@ -86,8 +86,8 @@ def _bearings(machine: Machine, parts: dict[str, Part]) -> dict[str, str]:
     }
 
 
-def _seated(bore: float, outer: float, parts: Iterable[Part], names: tuple[str, str]) -> str:
-    """Seats of the inner and of the outer ring, as the fits of the parts around them say."""
+def _seated(bore: float, outer: float, parts: Iterable[Part], names: tuple[str, ...]) -> str:
+    """Seats of the inner and of the outer rings, as the fits of the parts around them say."""
 
     def zone(name: str, diameter: float) -> str:
         for part in parts_list:
@@ -97,8 +97,9 @@ def _seated(bore: float, outer: float, parts: Iterable[Part], names: tuple[str, 
         return f"{_MM * diameter:g}"
 
     parts_list = tuple(parts)
-    inner, outside = names
-    return f"on the {inner} {zone(inner, bore)}, in the {outside} {zone(outside, outer)}"
+    inner, *outside = names
+    seats = " and the ".join(f"{name} {zone(name, outer)}" for name in outside)
+    return f"on the {inner} {zone(inner, bore)}, in the {seats}"
 
 
 def _is(part: Part, name: str) -> bool:
