@@ -17,7 +17,7 @@ from cqdd_design.exporting.sheets.blocks import (
     stairs,
 )
 from cqdd_design.exporting.sheets.drawing import AXIS, HIDDEN, OUTLINE, SheetDrawing
-from cqdd_design.exporting.sheets.profile import slots
+from cqdd_design.exporting.sheets.profile import sector, slots
 from cqdd_design.exporting.sheets.wording import DIA, circle_row, degrees, hole_rows, mm
 from cqdd_design.geometry.contours import ArcContour, as_complex
 from cqdd_design.solids.end_view import Arc, visible_edges
@@ -122,7 +122,7 @@ class EndPlan:
     def blocks(self) -> list[Placed]:
         """Callouts above and below the view."""
         blocks = [*self._hole_blocks(), *self._lobe_blocks(), *self._contour_blocks()]
-        blocks += self._slot_blocks()
+        blocks += [*self._slot_blocks(), *self._sector_blocks()]
         level = self.reach + _MARKS
         above = [block for block in blocks if block.target.imag >= 0.0]
         below = [block for block in blocks if block.target.imag < 0.0]
@@ -200,6 +200,14 @@ class EndPlan:
         rows = ((Words(words), Words("from"), Boxed(degrees(cmath.phase(found.floor)))),)
         return [Block(self.at(found.floor), rows)]
 
+    def _sector_blocks(self) -> list[Block]:
+        """What the section does not say of a piece of a ring: its inner radius, and its ends."""
+        found = sector(self.shape.facts.part.shape)
+        if found is None:
+            return []
+        words = Words(f"R{mm(found.inner)} inside, ends radial, {degrees(found.angle)} apart")
+        return [Block(self.at(found.spot), ((words,),))]
+
     @cached_property
     def boxes(self) -> list[Box]:
         """The rooms that the view and its callouts take, mm."""
@@ -267,6 +275,10 @@ class EndPlan:
         for radius in sorted(radii):
             sheet.circle(place, radius, AXIS)
 
+    def _leaders(self, *, up: bool) -> list[float]:
+        """Where leaders above or below the view run, mm from the axis."""
+        return [one.x for one in self.blocks if one.up == up]
+
     def _draw_cut(self, sheet: SheetDrawing, place: complex, letter: str) -> None:
         """Where the section runs, and which way it looks."""
         for direction, look in zip(self.cut, (-1j, 1j), strict=True):
@@ -278,4 +290,8 @@ class EndPlan:
             sheet.line(end, end + 5.0 * toward)
             sheet.triangle(end + 5.0 * toward, toward)
             spot = end - 3.2 * toward
+            # Past leaders that run there.
+            beside = self._leaders(up=out.imag > 0.0) if abs(out.imag) > 0.5 else []
+            while any(abs(x - (spot - place).real) < 2.0 for x in beside):
+                spot -= 0.5 * toward
             sheet.text(spot - 1.2 - 1.75j, letter, 3.5)

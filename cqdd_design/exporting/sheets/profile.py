@@ -151,6 +151,42 @@ def slots(shape: Stack) -> Slots | None:
     return Slots(len(floors), width, radius - abs(floors[0]), floors[0])
 
 
+@dataclass(frozen=True)
+class Sector:
+    """A part that is a piece of a ring round the axis, with radial ends, m and rad.
+
+    Attributes
+    ----------
+    inner : float
+        Its lesser radius.
+    angle : float
+        Between its ends.
+    spot : complex
+        A place on its inner edge, off the middle.
+    """
+
+    inner: float
+    angle: float
+    spot: complex
+
+
+def sector(shape: Stack) -> Sector | None:
+    """The piece of a ring that a part is; None of any other."""
+    contour = shape.layers[0].shape.outer
+    if len(shape.layers) > 1 or not isinstance(contour, ArcContour) or len(contour.points) != 4:
+        return None
+    arcs = contour.arcs()
+    curved = np.isfinite(arcs.radii)
+    if curved.sum() != 2 or np.hypot(*arcs.centres[curved].T).max() > 1e-9:
+        return None
+    inner = float(arcs.radii[curved].min())
+    corners = as_complex(contour.points)
+    ends = corners[np.abs(np.abs(corners) - inner) < SAME]
+    middle = complex(ends.sum())
+    angle = 2.0 * abs(float(np.angle(ends[0] / middle)))
+    return Sector(inner, angle, inner * middle / abs(middle) * complex(np.exp(0.25j * angle)))
+
+
 def spoken_for(cylinder: Cylinder, features: Iterable[Feature]) -> bool:
     """Whether a feature gives the diameter of a cylinder of the body."""
     return any(
