@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from cqdd_design.catalog.adhesives import ROTOR_COMPOUND
 from cqdd_design.catalog.bearings import find_bearing
+from cqdd_design.exporting.bill.known import catalogue_designations
 from cqdd_design.machine.screws import tightening_torques
 from cqdd_design.machine.sealing import bearing_seals
 from cqdd_design.solids.features import zones
@@ -32,6 +33,10 @@ def fitting_notes(machine: Machine) -> dict[str, str]:
     carrier = layout.carrier
     if carrier.bonded_in_cap and carrier.pin.screw is not None:
         notes["shoulder screw"] += f"; seat in the cap bonded with {ROTOR_COMPOUND.name}"
+    for name, part in parts.items():
+        if name.endswith("screw") and part.designation not in catalogue_designations():
+            told = "no such length is sold: turned to order"
+            notes[name] = f"{notes[name]}; {told}" if name in notes else told
     notes |= _shims(machine)
     for name in ("shaft bearing", "output bearing"):
         notes[name] += f"; {bearing_seals(machine)}"
