@@ -355,11 +355,30 @@ def test_no_line_runs_through_words(machine, paper_design_file):
     """Thin lines neither: leaders, axes and extension lines."""
     for flat in flat_parts(machine):
         assert_untouched(draw_sheet(facts_of(flat, machine)))
-    design = load_design(paper_design_file).replacing({"reducer.disc_count": 3})
-    three = resolve(design)
-    for part in (*turned_parts(machine), *turned_parts(three)):
-        of = machine if part in machine.parts else three
-        assert_untouched(drawn(part, of))
+    paper = load_design(paper_design_file)
+    three = paper.replacing({"reducer.disc_count": 3})
+    inrunner = paper.replacing({"motor.name": "CubeMars RI100 KV105"})
+    for one in (machine, resolve(three), resolve(inrunner)):
+        for part in turned_parts(one):
+            assert_untouched(drawn(part, one))
+
+
+def test_the_pocket_of_a_rotor_hub_has_its_sizes(machine):
+    """Rim, web and boss are layers within each other: their walls are free but for the web."""
+    inrunner = resolve(machine.given.replacing({"motor.name": "CubeMars RI100 KV105"}))
+    hub = next(part for part in inrunner.parts if part.name == "rotor hub")
+    texts = texts_of(svg_text(drawn(hub, inrunner), ""))
+    layers = hub.shape.layers
+    sizes = {2.0 * MM * c.radius for one in layers for c in (one.shape.outer, *one.shape.holes)}
+    for size in sizes:
+        assert any(text.startswith(f"\u00d8{size:.4g}") for text in texts), size
+    for layer in layers:
+        for height in (layer.bottom, layer.top):
+            assert any(near(text, MM * (height - hub.length_origin)) for text in numbers(texts))
+
+
+def numbers(texts):
+    return [text for text in texts if text and re.fullmatch(r"-?\d+(\.\d+)?", text)]
 
 
 def assert_untouched(canvas):

@@ -16,7 +16,8 @@ from cqdd_design.exporting.sheets.blocks import (
     Words,
     stairs,
 )
-from cqdd_design.exporting.sheets.drawing import AXIS, HIDDEN, OUTLINE, SheetDrawing
+from cqdd_design.exporting.sheets.drawing import AXIS, HIDDEN, OUTLINE, SMALL, SheetDrawing
+from cqdd_design.exporting.sheets.lettering import text_width
 from cqdd_design.exporting.sheets.profile import sector, slots
 from cqdd_design.exporting.sheets.wording import DIA, circle_row, degrees, hole_rows, mm
 from cqdd_design.geometry.contours import ArcContour, as_complex
@@ -223,8 +224,12 @@ class EndPlan:
         sheet.line(place - arm, place + arm, AXIS)
         sheet.line(place - 1j * arm, place + 1j * arm, AXIS)
         side = -1.0 if self.shape.from_above else 1.0
-        sheet.text(place + 0.8 + 1j * (self.reach + 1.4), "X", 2.2)
-        sheet.text(place + complex(side * (self.reach + 2.4) - 0.8, 0.8), "Y", 2.2)
+        # Beside the axis, clear of leaders, which rise from near it too.
+        wide = text_width("X", SMALL)
+        beside = (0.8, -0.8 - wide, 3.0, -3.0 - wide)
+        spot = next((x for x in beside if self._is_free(x, x + wide)), 0.8)
+        sheet.text(place + spot + 1j * (self.reach + 1.4), "X", SMALL)
+        sheet.text(place + complex(side * (self.reach + 2.4) - 0.8, 0.8), "Y", SMALL)
         for seat in self.shape.lobes:
             centre = place + self.at(complex(*seat.centre))
             sheet.line(centre - 3.0, centre + 3.0, AXIS)
@@ -274,6 +279,18 @@ class EndPlan:
                         sheet.arc(centre, 0.5 * self.factor * hole.thread, 100.0, 10.0)
         for radius in sorted(radii):
             sheet.circle(place, radius, AXIS)
+
+    def _is_free(self, left: float, right: float) -> bool:
+        """Whether no leader runs between two places just above the view."""
+        level = self.reach + 2.5
+        for one in self.blocks:
+            if not one.up:
+                continue
+            target, foot = one.block.target, complex(one.x, one.y)
+            share = (level - target.imag) / (foot.imag - target.imag)
+            if left - 0.3 < target.real + share * (foot.real - target.real) < right + 0.3:
+                return False
+        return True
 
     def _leaders(self, *, up: bool) -> list[float]:
         """Where leaders above or below the view run, mm from the axis."""

@@ -6,7 +6,7 @@ each is dimensioned once: by its feature where there is one, by the body otherwi
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -50,20 +50,35 @@ def cylinders(shape: Stack) -> tuple[Cylinder, ...]:
     """Cylinders round the axis, upward, each as long as it is; contours that are none leave out."""
     found: list[Cylinder] = []
     for layer in sorted(shape.layers, key=lambda one: one.bottom):
-        mates = [c for other in shape.layers if _beside(layer, other) for c in _walls(other)]
         for contour, inside in _walls(layer):
             if not isinstance(contour, Circle) or not _round_axis(contour):
                 continue
-            if any(other is not inside and _same(contour, mate) for mate, other in mates):
-                continue
             centre = complex(*contour.centre)
-            for i, known in enumerate(found):
-                if _continues(known, contour, inside, layer):
-                    found[i] = replace(known, top=max(known.top, layer.top))
-                    break
-            else:
-                found.append(Cylinder(contour.radius, layer.bottom, layer.top, inside, centre))
+            for bottom, top in _bare(shape, layer, contour, inside):
+                one = Cylinder(contour.radius, bottom, top, inside, centre)
+                for i, known in enumerate(found):
+                    if _continues(known, one):
+                        found[i] = replace(known, top=top)
+                        break
+                else:
+                    found.append(one)
     return tuple(found)
+
+
+def _bare(
+    shape: Stack, layer: Layer, contour: Circle, inside: bool
+) -> Iterator[tuple[float, float]]:
+    """Heights between which a wall of a layer is no seam with a layer beside it, rising, m."""
+    low = layer.bottom
+    for other in sorted(shape.layers, key=lambda one: one.bottom):
+        if not _beside(layer, other):
+            continue
+        if any(bore is not inside and _same(contour, mate) for mate, bore in _walls(other)):
+            if other.bottom - low > SAME:
+                yield low, other.bottom
+            low = max(low, other.top)
+    if layer.top - low > SAME:
+        yield low, layer.top
 
 
 def _walls(layer: Layer) -> list[tuple[Contour, bool]]:
@@ -99,12 +114,12 @@ def _round_axis(contour: Circle) -> bool:
     return abs(complex(*contour.centre)) < contour.radius
 
 
-def _continues(known: Cylinder, contour: Circle, inside: bool, layer: Layer) -> bool:
+def _continues(known: Cylinder, one: Cylinder) -> bool:
     return (
-        known.inside == inside
-        and abs(known.radius - contour.radius) < SAME
-        and abs(known.centre - complex(*contour.centre)) < SAME
-        and abs(known.top - layer.bottom) < SAME
+        known.inside == one.inside
+        and abs(known.radius - one.radius) < SAME
+        and abs(known.centre - one.centre) < SAME
+        and abs(known.top - one.bottom) < SAME
     )
 
 
