@@ -34,6 +34,7 @@ from cqdd_design.files import file_label
 from cqdd_design.machine import resolve
 from cqdd_design.machine.grease import grease_fill
 from cqdd_design.roads.export import export, left_out
+from cqdd_design.solids.features.flat import thickness_limits
 from cqdd_design.solids.features.holes import (
     BoltCircle,
     ClearanceHole,
@@ -375,6 +376,19 @@ def test_the_pocket_of_a_rotor_hub_has_its_sizes(machine):
     for layer in layers:
         for height in (layer.bottom, layer.top):
             assert any(near(text, MM * (height - hub.length_origin)) for text in numbers(texts))
+
+
+def test_no_ring_pin_is_longer_than_the_thinnest_ring(machine):
+    """Of a longer one the clamp would press the pin, and leave the ring loose."""
+    rolling = resolve(machine.given.replacing({"reducer.ring_type": "pinwheel"}))
+    pin = next(part for part in rolling.parts if part.name == "ring pin")
+    texts = texts_of(svg_text(drawn(pin, rolling), ""))
+    (said,) = (text for text in texts if text and "\u00b1" in text)
+    length, either = map(float, said.split(" \u00b1"))
+    lower, _ = thickness_limits(rolling.design.reducer.ring_material, 16.5e-3)
+    assert length == pytest.approx(MM * (pin.shape.top - pin.shape.bottom))
+    assert length + either <= 16.5 + MM * lower
+    assert pin.designation == f"ground pin 7 x {length:g} mm"
 
 
 def numbers(texts):

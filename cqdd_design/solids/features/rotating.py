@@ -165,3 +165,15 @@ def sleeve_features(inner: float, outer: float, length: float) -> tuple[Feature,
 def pin_features(diameter: float, bottom: float, top: float, zone: str) -> tuple[Seat, ...]:
     """Of a ground pin."""
     return (seat("outside", diameter, bottom, top, zone, ground=True, datum="A"),)
+
+
+RING_PIN_PLAY = BEARING_FACE
+"""At either end of a ring pin, m: with a length as true as bearings' faces, no pin is longer than
+the thinnest ring, whose clamp then presses the ring and not its pins."""
+
+
+def ring_pin_features(diameter: float, bottom: float, top: float) -> tuple[Feature, ...]:
+    """Of a pin of a ring, whose length has limits."""
+    (outside,) = pin_features(diameter, bottom, top, zones.RING_PIN)
+    end = shoulder("end", top, 0.0, 0.5 * diameter, "up", outside, along=BEARING_FACE)
+    return (outside, end)
