@@ -1,6 +1,7 @@
 """Files: read within bounds, written whole or not at all."""
 
 from cqdd_design.files.arrays import read_arrays
+from cqdd_design.files.labels import file_label
 from cqdd_design.files.parsing import parse_json, parse_toml, refuse_extremes
 from cqdd_design.files.reading import open_regular_file, read_regular_file, read_text_file
 from cqdd_design.files.writing import (
@@ -20,6 +21,7 @@ __all__ = [
     "atomic_path",
     "describe_file",
     "ensure_folder",
+    "file_label",
     "open_regular_file",
     "parse_json",
     "parse_toml",

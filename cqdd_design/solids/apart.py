@@ -5,8 +5,8 @@ of what is still in place. Screws leave on the side of their heads, and what the
 waits for them; nuts leave along their threads. Where no single thing can move, a unit does: one
 thing with all that it pushes before it, such as the carrier with discs and shaft, which is put
 together on the bench (Wilson and Latombe 1994, blocking graphs). What is bonded into a part that
-comes in later, as magnets into their bell, leaves with it and is a unit too. Put together is the
-same backwards.
+comes in later, as magnets into their bell, and weights on it, leaves with it and is a unit too.
+Put together is the same backwards.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 import numpy as np
 
 from cqdd_design.geometry.contours import FloatArray, PlanarPart
+from cqdd_design.solids.counterweights import NAMES as WEIGHTS
 from cqdd_design.solids.disassembly import disassembly_order
 from cqdd_design.solids.features.kinds import AxialThread, Joint
 from cqdd_design.solids.layers import Layer
@@ -102,7 +103,10 @@ def taken_apart(design: Design, parts: Sequence[Part]) -> tuple[tuple[Step, ...]
 
 
 def _bonds(things: Sequence[_Thing]) -> _Bonds:
-    """Rotor and stator of a motor with what carries them, if that is not the housing itself."""
+    """Rotor and stator of a motor with what carries them, if that is not the housing itself.
+
+    Balance weights go with the bell that they are bonded on.
+    """
     bonds: _Bonds = {}
     for host in things:
         for joint in host.station.part.features:
@@ -110,9 +114,10 @@ def _bonds(things: Sequence[_Thing]) -> _Bonds:
                 continue
             for guest in things:
                 name = guest.station.part.name
-                bought = name == joint.to and name.startswith("motor ")
-                if bought and host.station.part.name != "housing":
-                    bonds[id(host)], bonds[id(guest)] = guest, host
+                bought = name.startswith("motor ") and host.station.part.name != "housing"
+                if name == joint.to and (bought or host.station.part.name in WEIGHTS):
+                    bonds.setdefault(id(host), []).append(guest)
+                    bonds.setdefault(id(guest), []).append(host)
     return bonds
 
 
@@ -156,9 +161,11 @@ def _next(left: Sequence[_Thing], bonds: _Bonds) -> tuple[list[_Thing], Way] | N
 
 
 def _bonded(group: list[_Thing], left: Sequence[_Thing], bonds: _Bonds) -> list[_Thing]:
-    """Things with what is bonded to them."""
-    mates = [bonds[id(one)] for one in group if id(one) in bonds]
-    return group + [one for one in mates if one in left and one not in group]
+    """Things with what is bonded to them, and to that."""
+    found = list(group)
+    for one in found:
+        found += [o for o in bonds.get(id(one), []) if o in left and o not in found]
+    return found
 
 
 def _next_unit(left: Sequence[_Thing], bonds: _Bonds) -> tuple[list[_Thing], Way] | None:
@@ -326,8 +333,8 @@ class _Thing:
         return self._shared[key]
 
 
-_Bonds: TypeAlias = dict[int, _Thing]
-"""By the id of a thing, the other that is bonded to it."""
+_Bonds: TypeAlias = dict[int, list[_Thing]]
+"""By the id of a thing, the others that are bonded to it."""
 
 
 def material_of(shape: PlanarPart, sag: float) -> CrossSection:

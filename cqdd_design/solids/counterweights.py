@@ -18,6 +18,7 @@ from cqdd_design.design import Design
 from cqdd_design.errors import GeometryError
 from cqdd_design.geometry.contours import ArcContour, FloatArray, PlanarPart, as_points
 from cqdd_design.results import MassProperties
+from cqdd_design.solids.features.kinds import Joint
 from cqdd_design.solids.layers import prism
 from cqdd_design.solids.layout import Layout
 from cqdd_design.solids.motor_layout import MotorLayout
@@ -77,16 +78,16 @@ def balance_weights(
         )
     height = _HEIGHT * layout.unit
     places = (
-        (motor.web_bottom - height, motor.rotor_inner),
-        (motor.ring_top, motor.rotor_inner + 0.5 * layout.unit),
+        ("underside of its web", motor.web_bottom - height, motor.rotor_inner),
+        ("edge of its rim", motor.ring_top, motor.rotor_inner + 0.5 * layout.unit),
     )
-    levels = [bottom + 0.5 * height for bottom, _ in places]
+    levels = [bottom + 0.5 * height for _, bottom, _ in places]
     static, couple = crank_moments(design, parts)
     upper = (static * levels[0] - couple) / (levels[1] - levels[0])
     needed = (-static - upper, upper)
     return [
-        _weight(name, motor, bottom, inner, height, moment, colour)
-        for name, (bottom, inner), moment in zip(NAMES, places, needed, strict=True)
+        _weight(name, motor, face, bottom, inner, height, moment, colour)
+        for name, (face, bottom, inner), moment in zip(NAMES, places, needed, strict=True)
         if abs(moment) > _LEAST
     ]
 
@@ -107,6 +108,7 @@ def drawn_weights(design: Design, parts: Sequence[Part]) -> tuple[MassProperties
 def _weight(
     name: str,
     motor: MotorLayout,
+    face: str,
     bottom: float,
     inner: float,
     height: float,
@@ -122,8 +124,8 @@ def _weight(
             f"for {most * math.sin(_MOST_HALF_ANGLE) * 1e6:.4g} g mm; use two discs, or lower "
             "eccentricity."
         )
-    half = math.asin(abs(moment) / most)
-    shape = PlanarPart("weight", _sector(inner, outer, half, cmath.phase(moment)))
+    half, direction = math.asin(abs(moment) / most), cmath.phase(moment)
+    shape = PlanarPart("weight", _sector(inner, outer, half, direction))
     return Part(
         name=name,
         shape=prism(shape, bottom, bottom + height),
@@ -132,7 +134,14 @@ def _weight(
         source="make",
         designation=f"cut from {height * 1e3:.3g} mm sheet, bonded on the bell",
         instances=on_axis(name, SHAFT),
+        stated=(Joint("rotor bell", "bonded", face, "rotor bell", _where(direction)),),
     )
+
+
+def _where(direction: float) -> str:
+    """How a weight is put on, from the polar angle of its middle, rad."""
+    angle = round(math.degrees(direction), 2) % 360.0
+    return f"flush with its outside, the middle at {angle:g}\u00b0 from the shaft's lobe 1"
 
 
 def _sector(inner: float, outer: float, half: float, direction: float) -> ArcContour:

@@ -39,8 +39,10 @@ from cqdd_design.solids.features.housing import (
 from cqdd_design.solids.features.inrunner import flange_features
 from cqdd_design.solids.features.kinds import AxialThread, Feature
 from cqdd_design.solids.features.rotating import (
+    RING_PIN_PLAY,
     loose_cam_features,
     pin_features,
+    ring_pin_features,
     shaft_features,
     sleeve_features,
 )
@@ -157,10 +159,11 @@ def _ring_parts(design: Design, layout: Layout) -> list[Part]:
     if pins:
         held, diameter = layout.pack.held_pins, design.reducer.ring_pin_diameter
         beyond = 0.0 if held is None else layout.pack.relief + held.depth
-        shape = rotating.plain_pin(diameter, -beyond, height + beyond)
-        designation = f"ground pin {diameter * 1e3:g} x {(height + 2.0 * beyond) * 1e3:.6g} mm"
+        low, high = RING_PIN_PLAY - beyond, height + beyond - RING_PIN_PLAY
+        shape = rotating.plain_pin(diameter, low, high)
+        designation = f"ground pin {diameter * 1e3:g} x {(high - low) * 1e3:.6g} mm"
         pieces = around("ring pin", HOUSING, (pin.centre for pin in pins))
-        stated = pin_features(diameter, -beyond, height + beyond, zones.RING_PIN)
+        stated = ring_pin_features(diameter, low, high)
         parts.append(
             Part(
                 "ring pin", shape, material, _BEARING, "make", designation, pieces, stated=stated

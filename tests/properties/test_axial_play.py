@@ -133,6 +133,15 @@ def test_discs_without_spacing_have_no_play() -> None:
     assert min(one.reserve for one in held.axial_stacks) > 0.0
 
 
+def test_heat_that_is_not_known_takes_no_figure(machine: Machine) -> None:
+    line = next(one for one in retention_lines(machine) if one.id == "RETENTION-AXIAL-PLAY")
+    assert line.status == "unknown"
+    words = f"{line.formula} {line.substituted} {line.remedy}"
+    assert "temperatures are not known" in words
+    assert "heat takes" not in words
+    assert "lacking" not in words
+
+
 def test_heat_and_cold_take_from_the_play_that_is_judged(machine: Machine) -> None:
     """In the cold a housing of aluminium is shorter than the steel in it."""
     warm = machine_temperatures(machine)

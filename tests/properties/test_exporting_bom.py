@@ -119,6 +119,25 @@ def test_bought_parts_can_be_ordered(rows):
     assert "exact profile x 7850 kg/m3" in by_part["ring"]["notes"]
 
 
+def test_both_seats_of_the_shafts_bearings_are_told(rows):
+    (row,) = (row for row in rows if row["part"] == "shaft bearing")
+    assert (
+        "on the eccentric shaft 10 k6, in the housing 22 H7 and the carrier plate 22 H7"
+        in (row["fitting"])
+    )
+
+
+def test_a_screw_of_no_length_that_is_sold_says_so(paper, rows):
+    """Three discs of 9 mm take a shoulder of 32 mm; those of 4 mm end at 30 mm."""
+    three = {"reducer.disc_count": 3, "reducer.disc_thickness": "9 mm"}
+    machine = resolve(paper.replacing(three))
+    bill = bill_of_materials(machine, machine.parts)
+    (row,) = (row for row in bill if row.part == "shoulder screw")
+    assert row.designation not in catalogue_designations()
+    assert "no such length is sold: turned to order" in row.fitting
+    assert not any("no such length" in row["fitting"] for row in rows)
+
+
 def test_a_motor_that_is_not_drawn_is_the_last_line(paper):
     design = paper.replacing({"motor.name": "MAD 5010 110KV"})
     machine = resolve(design)

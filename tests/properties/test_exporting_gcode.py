@@ -230,11 +230,23 @@ def test_names_with_umlauts_are_spelt_out(text, paper, parts):
     assert list(_blocks(named)) == list(_blocks(text))
 
 
+def test_no_block_is_longer_than_a_control_reads(paper, parts):
+    """What is said of a ring's grooves takes several comments, its zone no sign before a sign."""
+    assert any(len(remark) > 200 for remark in parts[1].remarks)
+    for part in parts:
+        lines = program(part, paper).splitlines()
+        assert max(map(len, lines)) <= 100
+        assert not any("- +" in line or "- -" in line for line in lines)
+    words = " ".join(line.strip("()") for line in program(parts[1], paper).splitlines())
+    assert parts[1].remarks[1] in words
+    assert "72 N6, +0.039/+0.02" in words
+
+
 def test_a_seat_has_offsets_of_its_own(text, paper, parts):
     (note,) = re.findall(r"\((11 AND ON FOR INNER CONTOUR 1[^)]*)\)", text)
     assert "28 N7" in note
     # 28 N7 is -7 to -28 um: the middle is 17.5 um less, half of it on each side.
-    assert "+0.0087 MORE, TO CUT DIA 27.9825" in note
+    assert "+0.0087 MORE, TO CUT DIA 27.9825" in note.replace("\n", " ")
     assert re.findall(r"G41 (D\d+)", text)[:2] == ["D11", "D13"]
     assert set(re.findall(r"G4[12] (D\d+)", text)) == {
         f"D{base}{k}" for base in (0, 1) for k in (1, 2, 3, 4)

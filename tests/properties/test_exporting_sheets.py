@@ -29,9 +29,12 @@ from cqdd_design.exporting.sheets.lettering import text_width
 from cqdd_design.exporting.sheets.part_facts import PartFacts
 from cqdd_design.exporting.sheets.part_sheet import draw_part, plan_sheet
 from cqdd_design.exporting.sheets.title_block import SCALES
+from cqdd_design.exporting.solids.bom import bill_of_materials
+from cqdd_design.files import file_label
 from cqdd_design.machine import resolve
 from cqdd_design.machine.grease import grease_fill
 from cqdd_design.roads.export import export, left_out
+from cqdd_design.solids.features.flat import thickness_limits
 from cqdd_design.solids.features.holes import (
     BoltCircle,
     ClearanceHole,
@@ -269,6 +272,140 @@ def test_no_wire_and_no_grindstone_makes_a_printed_disc(paper_design_file):
     assert left_out(load_design(paper_design_file), "edm,gcode") == ()
 
 
+@pytest.fixture(scope="module")
+def printed(paper_design_file):
+    return resolve(load_design(paper_design_file.with_name("printed-13.toml")))
+
+
+def test_a_printed_ring_has_its_grooves_at_their_size(printed, machine):
+    """No wire is shifted for its outside, so that none cuts them to another size."""
+    ring = next(flat for flat in flat_parts(printed) if flat.label == "ring")
+    grooves = 2.0 * printed.layout.dowels.radius
+    arcs = ring.shape.outer.arcs()
+    assert np.isclose(2.0 * arcs.radii, grooves, rtol=1e-9).sum() >= 4
+    assert not any("CUTS" in told or "DRAWN" in told for told in ring.remarks)
+    cut = next(flat for flat in flat_parts(machine) if flat.label == "ring")
+    assert any("THE SHIFT OF THE OUTSIDE CUTS THEM TO DIA 1.5270" in told for told in cut.remarks)
+
+
+def test_a_balance_weight_can_be_made_from_its_sheet(printed):
+    weight = next(p for p in printed.parts if p.name == "balance weight, output end")
+    canvas = drawn(weight, printed)
+    assert_legible(canvas)
+    (contour,) = (layer.shape.outer for layer in weight.shape.layers)
+    inner = MM * float(contour.arcs().radii[np.isfinite(contour.arcs().radii)].min())
+    texts = texts_of(svg_text(canvas, ""))
+    said = next(text for text in texts if "ends radial" in text)
+    radius, angle = map(float, re.findall(NUMBER, said))
+    assert abs(radius - inner) < NEAR
+    (outside,) = (text for text in texts if re.fullmatch(f"\u00d8{NUMBER}", text))
+    outer = 0.5 * float(outside[1:])
+    thick = MM * (weight.shape.top - weight.shape.bottom)
+    area = math.radians(angle) * (outer**2 - radius**2) / 2.0
+    assert area * thick == pytest.approx(1e9 * weight.shape.volume, rel=1e-5)
+    assert PartFacts(weight, printed.given).number == "printed-13-balance-weight-output-end"
+
+
+def test_weights_go_in_with_the_bell_that_they_are_bonded_on(printed):
+    order = AssemblyFacts(printed).order()
+    weights = [said for said in order if "balance weight" in said]
+    assert len(weights) == 2
+    assert all(said.startswith("unit of the rotor bell: ") for said in weights)
+    assert any("the middle at 180\u00b0 from the shaft's lobe 1" in n for n in notes_of(printed))
+
+
+def notes_of(machine):
+    return AssemblyFacts(machine).notes()
+
+
+def test_the_sheet_of_a_plastic_part_names_the_inserts_in_its_threads(printed):
+    plate = next(p for p in printed.parts if p.name == "carrier plate")
+    said = part_sheet.notes(PartFacts(plate, printed.given))
+    assert sum("heat-set insert M4 x 8.1 in holes of 5.6 mm" in note for note in said) == 2
+
+
+def test_the_loose_cam_has_a_direction(machine):
+    three = resolve(machine.given.replacing({"reducer.disc_count": 3}))
+    (said,) = (note for note in notes_of(three) if "Eccentric cam pressed" in note)
+    assert "lobe 3 at 240\u00b0 from lobe 1, \u00b10.21\u00b0" in said
+
+
+@pytest.mark.parametrize("name", ["cqdd-10", "printed-13"])
+def test_the_parts_list_is_the_bill(name, paper_design_file):
+    machine = resolve(load_design(paper_design_file.with_name(f"{name}.toml")))
+    bill = bill_of_materials(machine, machine.parts)
+    listed = AssemblyFacts(machine).parts_list()
+    assert [(int(row[0]), int(row[1]), row[2]) for row in listed] == [
+        (row.item, row.quantity, row.part) for row in bill
+    ]
+    stator = next(row.item for row in bill if row.part == "motor stator")
+    for row, line in zip(listed, bill, strict=True):
+        assert row[3] == line.designation or line.item == stator
+    assert_legible(render(draw_assembly(AssemblyFacts(machine))))
+
+
+def test_a_motor_that_is_not_drawn_is_in_the_parts_list_as_in_the_bill(paper_design_file):
+    design = load_design(paper_design_file).replacing({"motor.name": "MAD 5010 110KV"})
+    machine = resolve(design)
+    bill = bill_of_materials(machine, machine.parts)
+    listed = AssemblyFacts(machine).parts_list()
+    assert [row[2] for row in listed] == [row.part for row in bill]
+
+
+def test_no_line_runs_through_words(machine, paper_design_file):
+    """Thin lines neither: leaders, axes and extension lines."""
+    for flat in flat_parts(machine):
+        assert_untouched(draw_sheet(facts_of(flat, machine)))
+    paper = load_design(paper_design_file)
+    three = paper.replacing({"reducer.disc_count": 3})
+    inrunner = paper.replacing({"motor.name": "CubeMars RI100 KV105"})
+    for one in (machine, resolve(three), resolve(inrunner)):
+        for part in turned_parts(one):
+            assert_untouched(drawn(part, one))
+
+
+def test_the_pocket_of_a_rotor_hub_has_its_sizes(machine):
+    """Rim, web and boss are layers within each other: their walls are free but for the web."""
+    inrunner = resolve(machine.given.replacing({"motor.name": "CubeMars RI100 KV105"}))
+    hub = next(part for part in inrunner.parts if part.name == "rotor hub")
+    texts = texts_of(svg_text(drawn(hub, inrunner), ""))
+    layers = hub.shape.layers
+    sizes = {2.0 * MM * c.radius for one in layers for c in (one.shape.outer, *one.shape.holes)}
+    for size in sizes:
+        assert any(text.startswith(f"\u00d8{size:.4g}") for text in texts), size
+    for layer in layers:
+        for height in (layer.bottom, layer.top):
+            assert any(near(text, MM * (height - hub.length_origin)) for text in numbers(texts))
+
+
+def test_no_ring_pin_is_longer_than_the_thinnest_ring(machine):
+    """Of a longer one the clamp would press the pin, and leave the ring loose."""
+    rolling = resolve(machine.given.replacing({"reducer.ring_type": "pinwheel"}))
+    pin = next(part for part in rolling.parts if part.name == "ring pin")
+    texts = texts_of(svg_text(drawn(pin, rolling), ""))
+    (said,) = (text for text in texts if text and "\u00b1" in text)
+    length, either = map(float, said.split(" \u00b1"))
+    lower, _ = thickness_limits(rolling.design.reducer.ring_material, 16.5e-3)
+    assert length == pytest.approx(MM * (pin.shape.top - pin.shape.bottom))
+    assert length + either <= 16.5 + MM * lower
+    assert pin.designation == f"ground pin 7 x {length:g} mm"
+
+
+def numbers(texts):
+    return [text for text in texts if text and re.fullmatch(r"-?\d+(\.\d+)?", text)]
+
+
+def assert_untouched(canvas):
+    ends = segments(canvas, 0.0)
+    assert not [label.text for label in canvas.labels if len(crossed(label, ends))]
+
+
+def test_cut_sheets_name_the_axes_that_angles_are_from(machine):
+    for flat in flat_parts(machine):
+        texts = texts_of(svg_text(draw_sheet(facts_of(flat, machine)), ""))
+        assert {"X", "Y"} <= set(texts)
+
+
 @pytest.mark.parametrize("radius", [0.05, 0.123, 1.5])
 def test_the_table_of_holes_is_as_wide_as_its_numbers(radius):
     facts = SimpleNamespace(holes=[[SimpleNamespace(circle=BoltCircle.even("x", 7, radius))]])
@@ -315,7 +452,7 @@ def test_the_same_sheet_is_the_same_bytes_in_every_process_and_at_every_time():
 
 @pytest.mark.deep
 def test_every_made_part_has_three_files_that_open(sheets, machine):
-    names = [f"cqdd-10-{p.name.replace(' ', '-')}" for p in machine.parts if p.source == "make"]
+    names = [f"cqdd-10-{file_label(p.name)}" for p in machine.parts if p.source == "make"]
     names.append("cqdd-10-assembly")
     assert sorted(sheets) == sorted(f"{n}.{end}" for n in names for end in ("pdf", "svg", "dxf"))
     for name in names:

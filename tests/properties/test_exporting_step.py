@@ -17,7 +17,8 @@ from cqdd_design.exporting.edm.cut_facts import zones_of
 from cqdd_design.exporting.edm.flat_parts import flat_parts
 from cqdd_design.exporting.job import ExportJob
 from cqdd_design.exporting.solids import step
-from cqdd_design.exporting.solids.step import export_step, file_label, write_part_step, write_step
+from cqdd_design.exporting.solids.step import export_step, write_part_step, write_step
+from cqdd_design.files import file_label
 from cqdd_design.machine import resolve
 from cqdd_design.solids.features.holes import ClearanceHole, FittedHole, TappedHole
 from cqdd_design.solids.features.kinds import Seat, Shoulder

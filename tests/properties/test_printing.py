@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import zipfile
+from collections import Counter
 
 import numpy as np
 import pytest
@@ -12,12 +13,14 @@ from cqdd_design.catalog import materials
 from cqdd_design.catalog.printing import inserts, printed_materials
 from cqdd_design.design import load_design
 from cqdd_design.errors import DesignError, GeometryError
+from cqdd_design.exporting.bill.known import catalogue_designations
 from cqdd_design.exporting.printing.compensate import Compensation, compensated, grown
 from cqdd_design.exporting.printing.coupon import HOLE_OFFSETS, PIN_OFFSETS, coupon
 from cqdd_design.exporting.printing.marks import marks
 from cqdd_design.exporting.printing.package import coupon_of, printed_parts
 from cqdd_design.exporting.printing.readme import readme_text
 from cqdd_design.exporting.printing.threads import ThreadedHoles, with_inserts
+from cqdd_design.exporting.solids.bom import bill_of_materials
 from cqdd_design.geometry.contours import Circle, as_complex
 from cqdd_design.machine import resolve
 from cqdd_design.roads.export import export
@@ -253,6 +256,22 @@ def test_a_machine_of_metal_is_refused_before_anything_is_begun(paper_design_fil
         export(load_design(paper_design_file), "step,print", tmp_path / "out", progress=told.append)
     assert told == []
     assert not (tmp_path / "out").exists()
+
+
+def test_the_bill_has_the_inserts_that_the_files_have_holes_for(machine, every):
+    bought = {
+        row.designation: row.quantity
+        for row in bill_of_materials(machine, machine.parts)
+        if row.part == "heat-set insert"
+    }
+    held = Counter()
+    for one in every:
+        for threads in one.threads:
+            if threads.insert is not None:
+                held[threads.insert.name] += one.drawn.count * threads.count
+    assert held
+    assert bought == held
+    assert bought.keys() <= catalogue_designations()
 
 
 def test_inserts_go_in_from_the_face(every):

@@ -1,4 +1,4 @@
-"""What a machine takes beside its parts: retaining compound and lubricant, and how much of each."""
+"""What a machine takes beside its parts: inserts, compound, lubricant, and how much of each."""
 
 from __future__ import annotations
 
@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING
 
 from cqdd_design.catalog.adhesives import ROTOR_COMPOUND
 from cqdd_design.catalog.fits import fit_limits
+from cqdd_design.catalog.printing import Insert, printed_materials
 from cqdd_design.errors import CatalogError
 from cqdd_design.exporting.bill.substitutes import other_lubricants
+from cqdd_design.exporting.printing.threads import with_inserts
 from cqdd_design.machine.grease import grease_fill
 from cqdd_design.solids.features import zones
 
@@ -31,6 +33,8 @@ class Consumable:
     ----------
     name, designation, fitting, substitutes, source : str
         As the columns of the bill.
+    quantity : int
+        Pieces; packs of what comes in packs.
     """
 
     name: str
@@ -38,6 +42,7 @@ class Consumable:
     fitting: str
     substitutes: str
     source: str
+    quantity: int = 1
 
 
 @dataclass(frozen=True)
@@ -84,6 +89,10 @@ def bonds(machine: Machine) -> tuple[Bond, ...]:
         found.append(
             Bond("pins in the plate", pin, depth, _gap("H7", "f9", pin), carrier.pin_count)
         )
+    if layout.pack.disc_count > 2:
+        size = 2.0 * layout.shaft.shoulder_radius
+        long = layout.pack.cam_top(2) - layout.pack.cam_top(1)
+        found.append(Bond("loose cam on the shaft", size, long, _LEAST_GAP))
     dowels = layout.dowels
     if dowels.radius:
         size = 2.0 * dowels.radius
@@ -103,9 +112,9 @@ def _gap(hole: str, shaft: str, diameter: float) -> float:
 
 
 def consumables(machine: Machine) -> tuple[Consumable, ...]:
-    """Compound and lubricant of a machine."""
+    """Inserts in its plastic, compound and lubricant of a machine."""
     places = bonds(machine)
-    found = []
+    found = _inserts(machine)
     if places:
         amount = _ML * sum(one.volume for one in places)
         found.append(
@@ -130,3 +139,23 @@ def consumables(machine: Machine) -> tuple[Consumable, ...]:
         )
     )
     return tuple(found)
+
+
+def _inserts(machine: Machine) -> list[Consumable]:
+    """Heat-set inserts, a line a size: what the files of printed parts have holes for."""
+    counts: dict[Insert, dict[str, int]] = {}
+    for part in machine.parts:
+        material = printed_materials().get(part.material)
+        if material is None or part.source != "make":
+            continue
+        for threads in with_inserts(part, material.least_wall)[1]:
+            if threads.insert is not None:
+                where = counts.setdefault(threads.insert, {})
+                where[part.name] = where.get(part.name, 0) + part.count * threads.count
+    found = []
+    for insert, where in sorted(counts.items(), key=lambda one: (one[0].thread, one[0].length)):
+        places = ", ".join(f"{count} in the {part}" for part, count in where.items())
+        how = f"melted into holes of {1e3 * insert.hole:g} mm: {places}"
+        count = sum(where.values())
+        found.append(Consumable("heat-set insert", insert.name, how, "", insert.source, count))
+    return found

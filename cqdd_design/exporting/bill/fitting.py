@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from cqdd_design.catalog.adhesives import ROTOR_COMPOUND
 from cqdd_design.catalog.bearings import find_bearing
+from cqdd_design.exporting.bill.known import catalogue_designations
 from cqdd_design.machine.screws import tightening_torques
 from cqdd_design.machine.sealing import bearing_seals
 from cqdd_design.solids.features import zones
@@ -32,6 +33,10 @@ def fitting_notes(machine: Machine) -> dict[str, str]:
     carrier = layout.carrier
     if carrier.bonded_in_cap and carrier.pin.screw is not None:
         notes["shoulder screw"] += f"; seat in the cap bonded with {ROTOR_COMPOUND.name}"
+    for name, part in parts.items():
+        if name.endswith("screw") and part.designation not in catalogue_designations():
+            told = "no such length is sold: turned to order"
+            notes[name] = f"{notes[name]}; {told}" if name in notes else told
     notes |= _shims(machine)
     for name in ("shaft bearing", "output bearing"):
         notes[name] += f"; {bearing_seals(machine)}"
@@ -74,7 +79,7 @@ def _bearings(machine: Machine, parts: dict[str, Part]) -> dict[str, str]:
             layout.shaft.support.bearing.bore_diameter,
             layout.shaft.support.bearing.outer_diameter,
             parts.values(),
-            ("eccentric shaft", "housing"),
+            ("eccentric shaft", "housing", "carrier plate"),
         ),
         "output bearing": _seated(
             layout.carrier.output.bearing.bore_diameter,
@@ -86,8 +91,8 @@ def _bearings(machine: Machine, parts: dict[str, Part]) -> dict[str, str]:
     }
 
 
-def _seated(bore: float, outer: float, parts: Iterable[Part], names: tuple[str, str]) -> str:
-    """Seats of the inner and of the outer ring, as the fits of the parts around them say."""
+def _seated(bore: float, outer: float, parts: Iterable[Part], names: tuple[str, ...]) -> str:
+    """Seats of the inner and of the outer rings, as the fits of the parts around them say."""
 
     def zone(name: str, diameter: float) -> str:
         for part in parts_list:
@@ -97,8 +102,9 @@ def _seated(bore: float, outer: float, parts: Iterable[Part], names: tuple[str, 
         return f"{_MM * diameter:g}"
 
     parts_list = tuple(parts)
-    inner, outside = names
-    return f"on the {inner} {zone(inner, bore)}, in the {outside} {zone(outside, outer)}"
+    inner, *outside = names
+    seats = " and the ".join(f"{name} {zone(name, outer)}" for name in outside)
+    return f"on the {inner} {zone(inner, bore)}, in the {seats}"
 
 
 def _is(part: Part, name: str) -> bool:

@@ -14,6 +14,7 @@ from cqdd_design.catalog.dowels import dowels
 from cqdd_design.catalog.encoders import encoder_magnets, encoder_sensors
 from cqdd_design.catalog.lubricants import lubricants
 from cqdd_design.catalog.motors import motors
+from cqdd_design.catalog.printing import inserts
 from cqdd_design.catalog.screws import shoulder_screws
 from cqdd_design.catalog.shims import shim_rings
 from cqdd_design.exporting.bill.substitutes import ordered_as
@@ -42,6 +43,7 @@ def catalogue_designations() -> frozenset[str]:
             *lubricants(),
             *(one.name for one in encoder_sensors()),
             *(one.name for one in encoder_magnets()),
+            *(one.name for one in inserts()),
             ROTOR_COMPOUND.name,
         )
     )

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from cqdd_design.catalog.printing import printed_materials
 from cqdd_design.errors import DesignError
 from cqdd_design.exporting.edm.exact_curves import disc_curve, grooved_curve, ring_curve
 from cqdd_design.exporting.edm.loops import ExactCurve
@@ -215,20 +216,24 @@ def _grooved(flat: FlatPart, dowels: DowelLayout, radius: float) -> FlatPart:
     """The ring with the half grooves of its dowels.
 
     They are drawn so large that the wire, shifted for the outside, cuts them to the middle of
-    their own zone.
+    their own zone. What no wire cuts has them at their nominal size, as it has its outside.
     """
     angles, size = dowels.angles, 2.0 * dowels.radius
     outside, groove = seat(0, 2.0 * radius, zones.RING_OUTSIDE), seat(1, size, zones.SEAM_GROOVE)
-    finished = size if groove is None else groove.middle
-    drawn = 0.5 * finished + (0.0 if outside is None else outside.shift)
+    finished, drawn = size, dowels.radius
+    wire = flat.material not in printed_materials()
+    if wire:
+        finished = size if groove is None else groove.middle
+        drawn = 0.5 * finished + (0.0 if outside is None else outside.shift)
     shape = PlanarPart(flat.shape.name, grooved_circle(radius, angles, drawn), flat.shape.holes)
     places = ", ".join(f"{math.degrees(angle):.4f}".rstrip("0").rstrip(".") for angle in angles)
     told = (
         f"{len(angles)} HALF GROOVES DIA {1e3 * size:g} {zones.SEAM_GROOVE} FOR DOWELS, CENTRES ON "
-        f"THE OUTSIDE AT {places} DEG, EACH WITHIN DIA {1e3 * SEAM_POSITION:g} OF ITS PLACE, DRAWN "
-        f"DIA {2e3 * drawn:.4f}"
+        f"THE OUTSIDE AT {places} DEG, EACH WITHIN DIA {1e3 * SEAM_POSITION:g} OF ITS PLACE"
     )
-    if outside is not None:
+    if wire:
+        told += f", DRAWN DIA {2e3 * drawn:.4f}"
+    if wire and outside is not None:
         told += f": THE SHIFT OF THE OUTSIDE CUTS THEM TO DIA {1e3 * finished:.4f}"
     return replace(
         flat,

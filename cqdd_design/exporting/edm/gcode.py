@@ -27,6 +27,7 @@ help, "Offset page" of wire EDM; BobCAD-CAM help, "Wire EDM 4 axis skim cut para
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -70,6 +71,8 @@ _FORWARD, _BACK = ("G42", "G41"), ("G41", "G42")
 """Offset to the side of the waste of an outer and of an inner contour, by direction."""
 
 _MM = 1e3
+_COMMENT = 98
+"""Most characters of a comment: controls cut longer blocks off, or refuse them."""
 
 
 @dataclass(frozen=True)
@@ -225,9 +228,10 @@ def _register_lines(
 
 
 def _comments(lines: list[str]) -> list[str]:
-    """Comments without inner brackets, which would end them."""
+    """Comments without inner brackets, which would end them; a long one is several."""
     cleaned = (ascii_text(line).upper() for line in lines)
-    return [f"({line.replace('(', '- ').replace(')', '')})" for line in cleaned]
+    bare = (line.replace(" (", ", ").replace("(", "").replace(")", "") for line in cleaned)
+    return [f"({part})" for line in bare for part in textwrap.wrap(line, _COMMENT)]
 
 
 def _cut(

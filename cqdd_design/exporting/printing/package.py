@@ -22,8 +22,8 @@ from cqdd_design.exporting.printing.printed_part import PrintedPart
 from cqdd_design.exporting.printing.readme import readme_text
 from cqdd_design.exporting.printing.threads import with_inserts
 from cqdd_design.exporting.solids.meshes import write_3mf, write_stl
-from cqdd_design.exporting.solids.step import file_label, write_part_step
-from cqdd_design.files import WrittenFile, write_atomically
+from cqdd_design.exporting.solids.step import write_part_step
+from cqdd_design.files import WrittenFile, file_label, write_atomically
 from cqdd_design.solids.part import on_axis
 from cqdd_design.solids.poses import HOUSING
 from cqdd_design.solids.walls import least_walls

@@ -5,6 +5,9 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from cqdd_design.catalog import bearings
+from cqdd_design.exporting.bill.consumables import consumables
+from cqdd_design.exporting.bill.substitutes import ordered_as
 from cqdd_design.exporting.sheets.wording import joint_note
 from cqdd_design.machine.centring import centring
 from cqdd_design.machine.grease import grease_fill
@@ -17,6 +20,7 @@ from cqdd_design.solids.tool_access import reaches
 
 if TYPE_CHECKING:
     from cqdd_design.machine import Machine
+    from cqdd_design.solids.part import Part
     from cqdd_design.solids.stations import Station
 
 _RUN_OUT = "0.2"
@@ -46,18 +50,20 @@ class AssemblyFacts:
         return sum(part.mass * part.count for part in self.parts)
 
     def parts_list(self) -> list[tuple[str, ...]]:
-        """A row a part, numbered as in the bill of materials."""
-        return [
-            (
-                str(item),
-                str(part.count),
-                part.name,
-                part.designation,
-                part.material,
-                f"{1e3 * part.mass:.4g}",
-            )
-            for item, part in enumerate(self.parts, start=1)
+        """A row a line of the bill of materials, in its numbers and words."""
+        rows = [
+            (str(part.count), part.name, _ordered(part), part.material, f"{1e3 * part.mass:.4g}")
+            for part in self.parts
         ]
+        if self.machine.layout.motor_end is None:
+            motor = self.machine.motor
+            mass = "" if motor.mass is None else f"{1e3 * motor.mass:.4g}"
+            rows.append(("1", "motor", motor.name, "", mass))
+        rows += [
+            (str(one.quantity), one.name, one.designation, "", "")
+            for one in consumables(self.machine)
+        ]
+        return [(str(item), *row) for item, row in enumerate(rows, start=1)]
 
     def torques(self) -> list[tuple[str, ...]]:
         """A row a screwed joint: place, screws, tightening torque."""
@@ -126,6 +132,12 @@ class AssemblyFacts:
             key = "" if size is None or step.is_unit else f", key {1e3 * size:.3g}"
             said.append(f"{bench}{what}, {how}{key}")
         return said
+
+
+def _ordered(part: Part) -> str:
+    """What to order, or how it is made."""
+    bearing = bearings().get(part.designation)
+    return part.designation if bearing is None else ordered_as(bearing)
 
 
 def _span(pair: tuple[float, float]) -> str:

@@ -34,7 +34,9 @@ _AROUND = 18.0
 _PARTS = (8.0, 7.0, 36.0, 67.0, 46.0, 12.5)
 _TORQUES = (70.0, 84.0, 24.0)
 _PLAYS = (64.0, 29.0, 29.0, 27.0, 29.0)
-_PITCH = 4.0
+_PITCH, _LEAST_PITCH = 4.0, 2.8
+_HEAD, _BETWEEN = 3.4, 3.0
+"""From the upper edge of a table's title to the table, and between tables, mm."""
 
 
 def draw_assembly(facts: AssemblyFacts) -> SheetDrawing:
@@ -57,17 +59,24 @@ def draw_assembly(facts: AssemblyFacts) -> SheetDrawing:
     rows = [PARTS_HEAD, *facts.parts_list()]
     torques = [("screwed joint", "screws", "torque, N m"), *facts.torques()]
     plays = [PLAY_HEAD, *facts.plays()]
-    lower = block.title_top(_ROWS) + 42.0
-    lines = len(rows) + len(torques) + len(plays) + 6
-    pitch = min(_PITCH, (corner.imag - lower - 10.0) / lines)
-    corner = table(sheet, corner, "PARTS", _PARTS, rows, pitch)
-    corner = table(sheet, corner - 3.0j, "SCREWS", _TORQUES, torques, pitch)
-    corner = table(sheet, corner - 3.0j, "AXIAL PLAY", _PLAYS, plays, pitch)
-    room = corner.imag - 5.0 - block.title_top(_ROWS) - 2.0
     said = [*facts.notes(), *_unnumbered(facts, view)]
-    block.draw_notes(
-        sheet, corner - 5.0j, said, width=A3.right - corner.real - 2.0, height=room, columns=2
-    )
+    wide, foot = A3.right - corner.real - 2.0, block.title_top(_ROWS) + 2.0
+    tables = ((_PARTS, rows), (_TORQUES, torques), (_PLAYS, plays))
+
+    def taken(pitch: float) -> float:
+        """Height of all that stands above the title block, mm."""
+        lines = sum(_row_lines(row, widths, pitch) for widths, many in tables for row in many)
+        notes = block.notes_height(said, wide, 2, SMALL * pitch / _PITCH)
+        return lines * pitch + len(tables) * (_HEAD + _BETWEEN) + 2.0 + notes
+
+    pitch = _PITCH
+    while pitch > _LEAST_PITCH and taken(pitch) > corner.imag - foot:
+        pitch *= 0.97
+    corner = table(sheet, corner, "PARTS", _PARTS, rows, pitch)
+    corner = table(sheet, corner - 1j * _BETWEEN, "SCREWS", _TORQUES, torques, pitch)
+    corner = table(sheet, corner - 1j * _BETWEEN, "AXIAL PLAY", _PLAYS, plays, pitch)
+    corner -= 1j * (_BETWEEN + 2.0)
+    block.draw_notes(sheet, corner, said, width=wide, height=corner.imag - foot, columns=2)
     _order(sheet, facts)
     _title(sheet, facts)
     return sheet
@@ -91,16 +100,12 @@ def table(
     """Draw a table under its title from its upper left corner; its lower left corner."""
     size = min(SMALL, 0.55 * pitch)
     sheet.text(corner - 2.4j, title, 2.4)
-    top = corner - 3.4j
+    top = corner - 1j * _HEAD
     whole = sum(widths)
     sheet.line(top, top + whole)
     level = top
     for row in rows:
-        cells = [
-            block.wrapped(words, width - 1.6, size)
-            for words, width in zip(row, widths, strict=True)
-        ]
-        x = 0.0
+        cells, x = _cells(row, widths, size), 0.0
         for lines, width in zip(cells, widths, strict=True):
             for place, line in enumerate(lines, start=1):
                 at = level + x + 0.8 + 1j * (0.24 - place) * pitch
@@ -113,6 +118,18 @@ def table(
         x += width
         sheet.line(top + x, top + x - end)
     return top - end
+
+
+def _cells(row: Sequence[str], widths: Sequence[float], size: float) -> list[list[str]]:
+    """Lines of every cell of a row."""
+    return [
+        block.wrapped(words, width - 1.6, size) for words, width in zip(row, widths, strict=True)
+    ]
+
+
+def _row_lines(row: Sequence[str], widths: Sequence[float], pitch: float) -> int:
+    """Of a row of a table, the most of its cells."""
+    return max(map(len, _cells(row, widths, min(SMALL, 0.55 * pitch))))
 
 
 def _order(sheet: SheetDrawing, facts: AssemblyFacts) -> None:

@@ -81,6 +81,8 @@ def _front_view(sheet: SheetDrawing, facts: CutFacts) -> None:
     arm = reach + 5.0
     sheet.line(FRONT - arm, FRONT + arm, AXIS)
     sheet.line(FRONT - 1j * arm, FRONT + 1j * arm, AXIS)
+    sheet.text(FRONT + complex(reach + 2.4, 0.8), "X", SMALL)
+    sheet.text(FRONT + complex(0.8, reach + 1.4), "Y", SMALL)
     sheet.circle(FRONT, factor * flat.reference_radius, AXIS)
     # The line of sight of the section, below the view.
     for side in (-1.0, 1.0):
@@ -168,8 +170,10 @@ def _mark(sheet: SheetDrawing, facts: CutFacts, holes: list[Circle]) -> None:
 def _profile_callout(sheet: SheetDrawing, facts: CutFacts) -> None:
     """Tolerance of the fitted contour, all round, and the squareness of its walls."""
     points = as_complex(facts.flat.fitted.sample(1e-4)) * _MM * sheet.scale
-    spot = points[np.abs(np.angle(points * np.exp(-1j * math.radians(52.0)))).argmin()]
     elbow = complex(FRONT.real + 38.0, FRONT.imag + MOST_REACH + 20.0)
+    # What stands under the shelf begins at the elbow: the leader runs down on its other side.
+    points = points[points.real < (elbow - FRONT).real - 1.0]
+    spot = points[np.abs(np.angle(points * np.exp(-1j * math.radians(52.0)))).argmin()]
     words, zones = "exact curve, all round", facts.zones
     sheet.callout(FRONT + complex(spot), elbow, words, text_width(words, TEXT) + 3.0)
     sheet.circle(elbow, 1.2)
@@ -211,9 +215,11 @@ def _concave_radius(sheet: SheetDrawing, facts: CutFacts, reach: float) -> None:
     off = np.abs(np.angle(middle * np.exp(1j * math.radians(50.0))))
     chosen = int(np.where(tightest, off, np.inf).argmin())
     wall = _MM * sheet.scale * complex(middle[chosen])
-    elbow = wall * ((reach + 9.0) / abs(wall) if outer else 0.35)
     words = f"R{_MM * float(arcs.radii[chosen]):.4g}"
     width = text_width(words, TEXT) + 3.0
+    # Within a ring it stands clear of the upright axis.
+    share = max(0.35, (width + 2.0) / wall.real)
+    elbow = wall * ((reach + 9.0) / abs(wall) if outer else share)
     sheet.callout(FRONT + wall, FRONT + elbow, words, width if outer else -width)
 
 
@@ -231,7 +237,7 @@ def _section(sheet: SheetDrawing, facts: CutFacts) -> None:
     for one, two in zip(walls[1:-1:2], walls[2:-1:2], strict=True):
         for x in (0.0, wide):
             sheet.line(left + x + 1j * factor * one, left + x + 1j * factor * two, OUTLINE)
-    sheet.line(left - 6.0, left + wide + 6.0, AXIS)
+    sheet.line(left - 4.0, left + wide + 4.0, AXIS)
     title = "A-A"
     sheet.text(SECTION - 0.5 * text_width(title, 3.5) + 1j * (MOST_REACH + 24.0), title, 3.5)
     words = f"<> {facts.thickness_text}"

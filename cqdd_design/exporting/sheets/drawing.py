@@ -28,6 +28,8 @@ _STYLED: dict[str, Any] = {"dimstyle": STYLE, "dxfattribs": {"layer": THIN}}
 """How every dimension is drawn."""
 CELL = 5.6
 """Height of a tolerance frame, mm."""
+STEM = 5.0
+"""Of a datum, from its foot to the letter's box, mm."""
 
 _HATCH, _FACE_HATCH = 4.0, 2.2
 """Between hatching lines, mm: along an edge, and across the lines."""
@@ -213,13 +215,13 @@ class SheetDrawing:
         self.box(corner, x, CELL)
         return x
 
-    def datum(self, foot: complex, toward: complex, letter: str) -> None:
-        """Mark a datum: a triangle on its feature, a line, the letter in a box."""
+    def datum(self, foot: complex, toward: complex, letter: str, stem: float = STEM) -> None:
+        """Mark a datum: a triangle on its feature, a line to `stem` mm, the letter in a box."""
         along = toward / abs(toward)
         corners = [foot + 2.2 * along, foot + 1.3j * along, foot - 1.3j * along]
         self._space.add_solid([_xy(c) for c in corners], dxfattribs={"layer": THIN})
-        middle = foot + (5.0 + 0.5 * CELL) * along
-        self.line(foot + 2.2 * along, foot + 5.0 * along)
+        middle = foot + (stem + 0.5 * CELL) * along
+        self.line(foot + 2.2 * along, foot + stem * along)
         self.box(middle - 0.5 * CELL * (1.0 + 1.0j), CELL, CELL)
         self.text(middle - 0.5 * text_width(letter, TEXT) - 0.5j * TEXT, letter)
 

@@ -16,8 +16,9 @@ from cqdd_design.exporting.sheets.blocks import (
     Words,
     stairs,
 )
-from cqdd_design.exporting.sheets.drawing import AXIS, HIDDEN, OUTLINE, SheetDrawing
-from cqdd_design.exporting.sheets.profile import slots
+from cqdd_design.exporting.sheets.drawing import AXIS, HIDDEN, OUTLINE, SMALL, SheetDrawing
+from cqdd_design.exporting.sheets.lettering import text_width
+from cqdd_design.exporting.sheets.profile import sector, slots
 from cqdd_design.exporting.sheets.wording import DIA, circle_row, degrees, hole_rows, mm
 from cqdd_design.geometry.contours import ArcContour, as_complex
 from cqdd_design.solids.end_view import Arc, visible_edges
@@ -122,7 +123,7 @@ class EndPlan:
     def blocks(self) -> list[Placed]:
         """Callouts above and below the view."""
         blocks = [*self._hole_blocks(), *self._lobe_blocks(), *self._contour_blocks()]
-        blocks += self._slot_blocks()
+        blocks += [*self._slot_blocks(), *self._sector_blocks()]
         level = self.reach + _MARKS
         above = [block for block in blocks if block.target.imag >= 0.0]
         below = [block for block in blocks if block.target.imag < 0.0]
@@ -200,6 +201,14 @@ class EndPlan:
         rows = ((Words(words), Words("from"), Boxed(degrees(cmath.phase(found.floor)))),)
         return [Block(self.at(found.floor), rows)]
 
+    def _sector_blocks(self) -> list[Block]:
+        """What the section does not say of a piece of a ring: its inner radius, and its ends."""
+        found = sector(self.shape.facts.part.shape)
+        if found is None:
+            return []
+        words = Words(f"R{mm(found.inner)} inside, ends radial, {degrees(found.angle)} apart")
+        return [Block(self.at(found.spot), ((words,),))]
+
     @cached_property
     def boxes(self) -> list[Box]:
         """The rooms that the view and its callouts take, mm."""
@@ -215,8 +224,12 @@ class EndPlan:
         sheet.line(place - arm, place + arm, AXIS)
         sheet.line(place - 1j * arm, place + 1j * arm, AXIS)
         side = -1.0 if self.shape.from_above else 1.0
-        sheet.text(place + 0.8 + 1j * (self.reach + 1.4), "X", 2.2)
-        sheet.text(place + complex(side * (self.reach + 2.4) - 0.8, 0.8), "Y", 2.2)
+        # Beside the axis, clear of leaders, which rise from near it too.
+        wide = text_width("X", SMALL)
+        beside = (0.8, -0.8 - wide, 3.0, -3.0 - wide)
+        spot = next((x for x in beside if self._is_free(x, x + wide)), 0.8)
+        sheet.text(place + spot + 1j * (self.reach + 1.4), "X", SMALL)
+        sheet.text(place + complex(side * (self.reach + 2.4) - 0.8, 0.8), "Y", SMALL)
         for seat in self.shape.lobes:
             centre = place + self.at(complex(*seat.centre))
             sheet.line(centre - 3.0, centre + 3.0, AXIS)
@@ -267,6 +280,22 @@ class EndPlan:
         for radius in sorted(radii):
             sheet.circle(place, radius, AXIS)
 
+    def _is_free(self, left: float, right: float) -> bool:
+        """Whether no leader runs between two places just above the view."""
+        level = self.reach + 2.5
+        for one in self.blocks:
+            if not one.up:
+                continue
+            target, foot = one.block.target, complex(one.x, one.y)
+            share = (level - target.imag) / (foot.imag - target.imag)
+            if left - 0.3 < target.real + share * (foot.real - target.real) < right + 0.3:
+                return False
+        return True
+
+    def _leaders(self, *, up: bool) -> list[float]:
+        """Where leaders above or below the view run, mm from the axis."""
+        return [one.x for one in self.blocks if one.up == up]
+
     def _draw_cut(self, sheet: SheetDrawing, place: complex, letter: str) -> None:
         """Where the section runs, and which way it looks."""
         for direction, look in zip(self.cut, (-1j, 1j), strict=True):
@@ -278,4 +307,8 @@ class EndPlan:
             sheet.line(end, end + 5.0 * toward)
             sheet.triangle(end + 5.0 * toward, toward)
             spot = end - 3.2 * toward
+            # Past leaders that run there.
+            beside = self._leaders(up=out.imag > 0.0) if abs(out.imag) > 0.5 else []
+            while any(abs(x - (spot - place).real) < 2.0 for x in beside):
+                spot -= 0.5 * toward
             sheet.text(spot - 1.2 - 1.75j, letter, 3.5)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.exporting.sheets.profile import outside
 from cqdd_design.exporting.sheets.wording import holes_by_circle
+from cqdd_design.files import file_label
 from cqdd_design.geometry.contours import Circle, Contour
 from cqdd_design.solids.features.holes import (
     ClearanceHole,
@@ -42,7 +43,7 @@ class PartFacts:
     @property
     def number(self) -> str:
         """Of the drawing, and the stem of its files."""
-        return f"{self.design.name}-{self.part.name.replace(' ', '-')}"
+        return f"{self.design.name}-{file_label(self.part.name)}"
 
     @cached_property
     def outside(self) -> float:

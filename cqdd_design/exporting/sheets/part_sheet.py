@@ -19,7 +19,8 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from typing import TYPE_CHECKING
 
-from cqdd_design.catalog.printing import made_how
+from cqdd_design.catalog.printing import made_how, printed_materials
+from cqdd_design.exporting.printing.threads import with_inserts
 from cqdd_design.exporting.sheets.blocks import Extent, distance_beside
 from cqdd_design.exporting.sheets.drawing import SMALL, SheetDrawing, new_sheet
 from cqdd_design.exporting.sheets.end_plan import EndPlan, EndShape
@@ -41,6 +42,7 @@ from cqdd_design.exporting.sheets.wording import joint_note
 
 if TYPE_CHECKING:
     from cqdd_design.exporting.sheets.part_facts import PartFacts
+    from cqdd_design.solids.part import Part
 
 _HOLE, _PLACE, _PITCH = 10.2, 13.5, 4.0
 """Width of a block of the table of holes, and its rows, mm."""
@@ -161,11 +163,20 @@ def notes(facts: PartFacts) -> list[str]:
             what = "" if isinstance(feature, Shoulder) else "axis of the "
             said.append(f"Datum {feature.datum}: {what}{feature.name}.")
     said += [joint_note(joint) for joint in facts.joints]
+    said += _insert_notes(facts.part)
     if facts.holes:
         said.append("X and Y of holes are theoretically exact; X points up in the view.")
     said.append("Dimensions in boxes are theoretically exact (ISO 1101).")
     said.append("Lengths run from the face marked with a circle.")
     return said
+
+
+def _insert_notes(part: Part) -> list[str]:
+    """What goes into the threads of a part of plastic instead of a tap, or that nothing does."""
+    plastic = printed_materials().get(part.material)
+    if plastic is None:
+        return []
+    return [f"Threads {one}." for one in with_inserts(part, plastic.least_wall)[1]]
 
 
 def _title(sheet: SheetDrawing, facts: PartFacts) -> None:

@@ -6,7 +6,7 @@ each is dimensioned once: by its feature where there is one, by the body otherwi
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -50,20 +50,35 @@ def cylinders(shape: Stack) -> tuple[Cylinder, ...]:
     """Cylinders round the axis, upward, each as long as it is; contours that are none leave out."""
     found: list[Cylinder] = []
     for layer in sorted(shape.layers, key=lambda one: one.bottom):
-        mates = [c for other in shape.layers if _beside(layer, other) for c in _walls(other)]
         for contour, inside in _walls(layer):
             if not isinstance(contour, Circle) or not _round_axis(contour):
                 continue
-            if any(other is not inside and _same(contour, mate) for mate, other in mates):
-                continue
             centre = complex(*contour.centre)
-            for i, known in enumerate(found):
-                if _continues(known, contour, inside, layer):
-                    found[i] = replace(known, top=max(known.top, layer.top))
-                    break
-            else:
-                found.append(Cylinder(contour.radius, layer.bottom, layer.top, inside, centre))
+            for bottom, top in _bare(shape, layer, contour, inside):
+                one = Cylinder(contour.radius, bottom, top, inside, centre)
+                for i, known in enumerate(found):
+                    if _continues(known, one):
+                        found[i] = replace(known, top=top)
+                        break
+                else:
+                    found.append(one)
     return tuple(found)
+
+
+def _bare(
+    shape: Stack, layer: Layer, contour: Circle, inside: bool
+) -> Iterator[tuple[float, float]]:
+    """Heights between which a wall of a layer is no seam with a layer beside it, rising, m."""
+    low = layer.bottom
+    for other in sorted(shape.layers, key=lambda one: one.bottom):
+        if not _beside(layer, other):
+            continue
+        if any(bore is not inside and _same(contour, mate) for mate, bore in _walls(other)):
+            if other.bottom - low > SAME:
+                yield low, other.bottom
+            low = max(low, other.top)
+    if layer.top - low > SAME:
+        yield low, layer.top
 
 
 def _walls(layer: Layer) -> list[tuple[Contour, bool]]:
@@ -99,12 +114,12 @@ def _round_axis(contour: Circle) -> bool:
     return abs(complex(*contour.centre)) < contour.radius
 
 
-def _continues(known: Cylinder, contour: Circle, inside: bool, layer: Layer) -> bool:
+def _continues(known: Cylinder, one: Cylinder) -> bool:
     return (
-        known.inside == inside
-        and abs(known.radius - contour.radius) < SAME
-        and abs(known.centre - complex(*contour.centre)) < SAME
-        and abs(known.top - layer.bottom) < SAME
+        known.inside == one.inside
+        and abs(known.radius - one.radius) < SAME
+        and abs(known.centre - one.centre) < SAME
+        and abs(known.top - one.bottom) < SAME
     )
 
 
@@ -149,6 +164,42 @@ def slots(shape: Stack) -> Slots | None:
     if not floors:
         return None
     return Slots(len(floors), width, radius - abs(floors[0]), floors[0])
+
+
+@dataclass(frozen=True)
+class Sector:
+    """A part that is a piece of a ring round the axis, with radial ends, m and rad.
+
+    Attributes
+    ----------
+    inner : float
+        Its lesser radius.
+    angle : float
+        Between its ends.
+    spot : complex
+        A place on its inner edge, off the middle.
+    """
+
+    inner: float
+    angle: float
+    spot: complex
+
+
+def sector(shape: Stack) -> Sector | None:
+    """The piece of a ring that a part is; None of any other."""
+    contour = shape.layers[0].shape.outer
+    if len(shape.layers) > 1 or not isinstance(contour, ArcContour) or len(contour.points) != 4:
+        return None
+    arcs = contour.arcs()
+    curved = np.isfinite(arcs.radii)
+    if curved.sum() != 2 or np.hypot(*arcs.centres[curved].T).max() > 1e-9:
+        return None
+    inner = float(arcs.radii[curved].min())
+    corners = as_complex(contour.points)
+    ends = corners[np.abs(np.abs(corners) - inner) < SAME]
+    middle = complex(ends.sum())
+    angle = 2.0 * abs(float(np.angle(ends[0] / middle)))
+    return Sector(inner, angle, inner * middle / abs(middle) * complex(np.exp(0.25j * angle)))
 
 
 def spoken_for(cylinder: Cylinder, features: Iterable[Feature]) -> bool:

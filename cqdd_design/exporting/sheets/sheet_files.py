@@ -17,7 +17,7 @@ from cqdd_design.exporting.edm.cut_facts import facts_of
 from cqdd_design.exporting.edm.dxf import add_classes, reproducible
 from cqdd_design.exporting.edm.flat_parts import flat_parts
 from cqdd_design.exporting.sheets.formats import A3, LEAST_SCALE, scale_words
-from cqdd_design.files import WrittenFile, write_atomically
+from cqdd_design.files import WrittenFile, file_label, write_atomically
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -50,7 +50,7 @@ def sheets_of(job: ExportJob) -> Iterator[tuple[str, str, SheetDrawing]]:
     for part in job.parts:
         if part.source != "make":
             continue
-        label = part.name.replace(" ", "-")
+        label = file_label(part.name)
         if label in flat:
             facts = facts_of(flat[label], job.machine, job.options)
             yield f"{job.design.name}-{label}", "cut sheet", draw_cut_sheet(facts)

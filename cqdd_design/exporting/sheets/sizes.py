@@ -18,7 +18,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from cqdd_design.exporting.sheets.blocks import Block, Box, Placed, Row, spread, stair
-from cqdd_design.exporting.sheets.drawing import SMALL, TEXT, SheetDrawing
+from cqdd_design.exporting.sheets.drawing import CELL, SMALL, STEM, TEXT, SheetDrawing
 from cqdd_design.exporting.sheets.lettering import short_number, text_width
 
 _FIRST, _PITCH = 11.0, 8.0
@@ -29,6 +29,8 @@ _ARROWS = 7.0
 """Below this a dimension's arrows point at it from outside, mm."""
 _CLOSE = 5.0
 """Lengths nearer to each other have strokes instead of arrows, mm."""
+_CLEAR = 1.0
+"""From a datum's box to extension lines above and below it, mm."""
 _DATUM = 12.0
 """Room that a datum takes below its dimension, mm."""
 
@@ -68,15 +70,36 @@ class Diameter:
         """Farthest from the part's axis, mm."""
         return abs(self.middle) + self.radius
 
+    @property
+    def low(self) -> float:
+        """Height of its lower generatrix, mm."""
+        return self.middle - self.radius
+
+    @property
+    def foot(self) -> float:
+        """Height at which its datum begins, mm."""
+        return self.low if 2.0 * self.radius >= _ARROWS else self.low - 5.0
+
 
 @dataclass(frozen=True)
 class Column:
-    """A diameter where it is written: x of its dimension line, and where its text begins, mm."""
+    """A diameter where it is written, mm.
+
+    Attributes
+    ----------
+    x, text_at : float
+        Of its dimension line, and where its text begins.
+    edge : float
+        Of its cylinder, from which its extension lines come.
+    stem : float
+        From its datum's foot to the letter's box.
+    """
 
     size: Diameter
     x: float
     text_at: float
     edge: float
+    stem: float = STEM
 
     def draw(self, sheet: SheetDrawing, shift: complex) -> None:
         """Draw extension lines, dimension line, text and datum."""
@@ -100,8 +123,7 @@ class Column:
         place = complex(self.x - 0.9, self.text_at)
         sheet.text(shift + place, size.text, TEXT, turn=90.0)
         if size.datum:
-            foot = low if 2.0 * size.radius >= _ARROWS else low - 5.0
-            sheet.datum(shift + complex(self.x, foot), -1j, size.datum)
+            sheet.datum(shift + complex(self.x, size.foot), -1j, size.datum, self.stem)
 
     @property
     def length(self) -> float:
@@ -123,7 +145,7 @@ class Sizes:
     def boxes(self) -> list[Box]:
         """Of the blocks below the columns, and of the datums over them."""
         datums = [
-            (c.x - 3.0, c.size.middle - c.size.radius - _DATUM - 2.0, c.x + 3.0, 0.0)
+            (c.x - 3.0, min(c.size.low - _DATUM, c.size.foot - c.stem - CELL) - 2.0, c.x + 3.0, 0.0)
             for c in self.columns
             if c.size.datum
         ]
@@ -161,7 +183,8 @@ def columns_of(
             fits = wide + 2.0 * 3.5 <= 2.0 * size.radius
             at = size.middle - 0.5 * wide if fits else most + 4.0
             edge = size.begin if out < 0.0 else size.end
-            columns.append(Column(size, x, at, edge))
+            passing = [other.low for other in ordered[place + 1 :]]
+            columns.append(Column(size, x, at, edge, _stem(size.foot, passing)))
             if size.rows:
                 foot = complex(x - out * 2.6, size.middle - size.radius)
                 rows.append((Block(foot, size.rows), foot.real))
@@ -174,6 +197,15 @@ def columns_of(
         right=max([half + 6.0, *(c.x + 2.0 for c in columns)]),
         top=max([reach, *(c.text_at + c.length for c in columns)]),
     )
+
+
+def _stem(foot: float, levels: Sequence[float]) -> float:
+    """Length of a datum's stem at which no line at one of the levels runs through its box, mm."""
+    stem = STEM
+    for level in sorted(levels, reverse=True):
+        if foot - stem - CELL - _CLEAR < level < foot - stem + _CLEAR:
+            stem = foot - level + _CLEAR
+    return stem
 
 
 @dataclass(frozen=True)

@@ -87,6 +87,10 @@ def _projection_sign(sheet: SheetDrawing, centre: complex) -> None:
     sheet.polygon(corners)
 
 
+_INDENT, _NOTE_HEAD, _NOTE_PITCH = 5.0, 5.5, 3.9
+"""Of notes behind their numbers, below their title, and from line to line, mm."""
+
+
 def draw_notes(
     sheet: SheetDrawing,
     corner: complex,
@@ -98,21 +102,29 @@ def draw_notes(
     title: str = "NOTES",
 ) -> None:
     """Write numbered notes from their upper left corner, smaller where there is little room."""
-    indent, pitch = 5.0, 3.9
-    wide = width / columns - (4.0 if columns > 1 else 0.0)
-    size, lines = SMALL, _lines(notes, wide - indent, SMALL)
-    while len(lines) * pitch * size / SMALL > columns * (height - 5.5) and size > 1.5:
+    size = SMALL
+    while size > 1.5 and notes_height(notes, width, columns, size) > height:
         size *= 0.95
-        lines = _lines(notes, wide - indent, size)
-    pitch *= size / SMALL
-    rows = -(-len(lines) // columns)
+    lines = _lines(notes, _note_width(width, columns), size)
+    pitch, rows = _NOTE_PITCH * size / SMALL, -(-len(lines) // columns)
     sheet.text(corner, title, 3.0)
     for place, (number, line) in enumerate(lines):
         column, row = divmod(place, rows)
-        at = corner + column * width / columns - 1j * (5.5 + row * pitch)
+        at = corner + column * width / columns - 1j * (_NOTE_HEAD + row * pitch)
         if number:
             sheet.text(at, number, size)
-        sheet.text(at + indent, line, size)
+        sheet.text(at + _INDENT, line, size)
+
+
+def notes_height(notes: Sequence[str], width: float, columns: int, size: float) -> float:
+    """Height that notes take in columns at a size of text, their title's foot at 0, mm."""
+    lines = len(_lines(notes, _note_width(width, columns), size))
+    return _NOTE_HEAD + -(-lines // columns) * _NOTE_PITCH * size / SMALL
+
+
+def _note_width(width: float, columns: int) -> float:
+    """Of the lines of notes in columns, mm."""
+    return width / columns - (4.0 if columns > 1 else 0.0) - _INDENT
 
 
 def _lines(notes: Sequence[str], width: float, size: float) -> list[tuple[str, str]]:

@@ -138,7 +138,7 @@ def bill_of_materials(machine: Machine, parts: Sequence[Part]) -> tuple[BomRow, 
         )
     beside = (
         BomRow(
-            len(rows) + number, one.name, 1, "buy", "", None, None, one.designation,
+            len(rows) + number, one.name, one.quantity, "buy", "", None, None, one.designation,
             fitting=one.fitting, substitutes=one.substitutes,
             notes=f"mass: not part of the machine's ({one.source})",
         )

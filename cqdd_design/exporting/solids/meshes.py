@@ -18,8 +18,7 @@ from xml.sax.saxutils import escape, quoteattr
 import numpy as np
 
 from cqdd_design.exporting.solids import gltf
-from cqdd_design.exporting.solids.step import file_label
-from cqdd_design.files import WrittenFile, write_atomically
+from cqdd_design.files import WrittenFile, file_label, write_atomically
 from cqdd_design.version import __version__
 
 if TYPE_CHECKING:

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 
 from cqdd_design.environment import source_date
 from cqdd_design.errors import ReadBackError
-from cqdd_design.files import WrittenFile, write_with
+from cqdd_design.files import WrittenFile, file_label, write_with
 from cqdd_design.version import __version__
 
 if TYPE_CHECKING:
@@ -52,17 +52,6 @@ def export_step(job: ExportJob) -> tuple[WrittenFile, ...]:
             for part in job.parts
         ),
     )
-
-
-def file_label(name: str) -> str:
-    """A part's name as the end of a file name.
-
-    Examples
-    --------
-    >>> file_label("shaft bearing, housing end")
-    'shaft-bearing-housing-end'
-    """
-    return re.sub(r"[^a-z0-9]+", "-", name.lower()).strip("-")
 
 
 def write_step(

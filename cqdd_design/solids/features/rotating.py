@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from cqdd_design.catalog.adhesives import ROTOR_COMPOUND
 from cqdd_design.catalog.bearings import least_chamfer
 from cqdd_design.solids.features import zones
 from cqdd_design.solids.features.holes import Centre, Facing
@@ -39,10 +40,24 @@ def shaft_features(
             "seat of the eccentric cam", 2.0 * shaft.shoulder_radius, pack.cam_top(1),
             pack.cam_top(2), zones.PRESSED_CAM, ground=True, refers="AB",
         )  # fmt: skip
-        found += [core, Joint("eccentric cam", "pressed", core.name, "eccentric cam", "press fit")]
+        how = _pressed_on(pack, position)
+        found += [core, Joint("eccentric cam", "pressed", core.name, "eccentric cam", how)]
     if motor is not None:
         found += _motor_end(shaft, motor)
     return tuple(found)
+
+
+def _pressed_on(pack: PackLayout, position: float) -> str:
+    """How the loose cam is put on: round as its seat is, only a measurement turns it right.
+
+    The zone (m) of the lobes' axes is what it may be turned off by.
+    """
+    angle = 2.0 * 360.0 / pack.disc_count
+    off = math.degrees(0.5 * position / pack.eccentricity)
+    return (
+        f"press fit with {ROTOR_COMPOUND.name}, lobe 3 at {angle:g}\u00b0 from lobe 1, "
+        f"\u00b1{off:.2g}\u00b0"
+    )
 
 
 def journal_features(shaft: ShaftLayout) -> list[Feature]:
@@ -150,3 +165,15 @@ def sleeve_features(inner: float, outer: float, length: float) -> tuple[Feature,
 def pin_features(diameter: float, bottom: float, top: float, zone: str) -> tuple[Seat, ...]:
     """Of a ground pin."""
     return (seat("outside", diameter, bottom, top, zone, ground=True, datum="A"),)
+
+
+RING_PIN_PLAY = BEARING_FACE
+"""At either end of a ring pin, m: with a length as true as bearings' faces, no pin is longer than
+the thinnest ring, whose clamp then presses the ring and not its pins."""
+
+
+def ring_pin_features(diameter: float, bottom: float, top: float) -> tuple[Feature, ...]:
+    """Of a pin of a ring, whose length has limits."""
+    (outside,) = pin_features(diameter, bottom, top, zones.RING_PIN)
+    end = shoulder("end", top, 0.0, 0.5 * diameter, "up", outside, along=BEARING_FACE)
+    return (outside, end)
