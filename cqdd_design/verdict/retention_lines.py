@@ -110,12 +110,15 @@ def _play(
         told += f", packs of {least.shims.designation} leave"
     else:
         told += ", which is the play:"
-    told += f" {_mm(least.play[0])} to {_mm(least.play[1])} mm, heat takes {_mm(-grown[least])} mm"
+    told += f" {_mm(least.play[0])} to {_mm(least.play[1])} mm, "
+    told += f"{missing}" if missing else f"heat takes {_mm(abs(grown[least]))} mm"
     known = not missing or left[least] < 0.0
     lacking = _mm(max(-left[least], 0.0))
     spacing = machine.design.reducer.disc_spacing + max(-left[least], 0.0)
     cure = (
-        f"raise disc_spacing to {_mm(spacing)} mm, for lengths take {lacking} mm too much"
+        "see THERMAL-RISE, which says what is not known"
+        if not known
+        else f"raise disc_spacing to {_mm(spacing)} mm, for lengths take {lacking} mm too much"
         if least.kit is None
         else f"a housing.material that grows as steel does, or less heat; {lacking} mm are lacking"
     )
@@ -123,7 +126,7 @@ def _play(
         "RETENTION-AXIAL-PLAY",
         1e3 * left[least] if known else None,
         0.0,
-        told if not missing else f"{told}; {missing}",
+        told,
         cure,
     )
 

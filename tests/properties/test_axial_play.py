@@ -183,3 +183,13 @@ def test_bill_and_sheet_tell_the_shims(machine: Machine) -> None:
         "0.18 to 0.94",
         "0.05 to 0.15",
     )
+
+
+def test_play_without_temperatures_tells_neither_of_heat_nor_of_what_is_lacking(
+    machine: Machine,
+) -> None:
+    line = next(one for one in retention_lines(machine) if one.id == "RETENTION-AXIAL-PLAY")
+    assert line.status == "unknown"
+    assert "temperatures are not known" in line.substituted
+    assert "heat takes" not in line.substituted
+    assert line.remedy.startswith("see THERMAL-RISE")

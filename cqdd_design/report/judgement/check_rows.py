@@ -98,13 +98,12 @@ def printed(text: str) -> str:
         (" x ", f" {TIMES} "),
         (" - ", f" {MINUS} "),
         ("+-", "±"),
-        ("N*m", "N·m"),
-        ("g*mm", "g·mm"),
         ("sqrt(", "√("),
         ("<=", "≤"),
         (">=", "≥"),
     ):
         text = text.replace(plain, sign)
+    text = re.sub(r"(?<=[A-Za-z])\*(?=[A-Za-z])", "·", text)
     text = re.sub(r"(?<![^\s(])-(?=\d)", MINUS, text)
     text = re.sub(r"\b1e(\d)\b", lambda found: "10" + superscript(int(found[1])), text)
     text = re.sub(

@@ -35,7 +35,7 @@ GROUPS = {
     "reducer.carrier_bearing": "Carrier bearing",
     "reducer.ring": "Ring",
     "reducer.friction": "Friction",
-    "reducer.finish": "Made by",
+    "reducer.finish": "Finish",
     "reducer.balance": "Balance",
     "motor": "Motor",
     "drive": "Drive",
