@@ -28,7 +28,7 @@ def catalog(
         ),
     ] = None,
 ) -> None:
-    """List and show materials, motors, bearings, screws, fits, lubricants and finishes."""
+    """List and show materials, motors, bearings, screws, fits, lubricants and more."""
     from cqdd_design.catalog import browse
 
     words = list(what or [])

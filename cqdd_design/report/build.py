@@ -254,5 +254,5 @@ def _closing(results: ReportInput, groups: tuple[Group, ...]) -> Values:
         "warnings": tuple(printed(line) for line in (*analysis.warnings, *results.notes)),
         "defaults": folded(groups).left,
         "literature": literature,
-        "catalogue": catalogue,
+        "catalogue": tuple((printed(row), uses) for row, uses in catalogue),
     }

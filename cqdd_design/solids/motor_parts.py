@@ -40,6 +40,7 @@ from cqdd_design.solids.selection import CapScrew
 COVER_SCREW = "motor cover screw"
 STATOR_MATERIAL = "Electrical steel M400-50A"
 MAGNET_MATERIAL = "NdFeB N42"
+ENCODER_MAGNET_MATERIAL = "NdFeB N35"
 BOARD_MATERIAL = "FR-4 glass epoxy"
 
 _ROTOR_SHARE, _LEAST_STATOR = 0.4, 0.05
@@ -140,17 +141,20 @@ def encoder_parts(design: Design, motor: MotorEnd, fastener: str) -> list[Part]:
     board_name = next((one.name for one in sensors), f"magnetic encoder, {bits} bits")
     if motor.open:
         magnet_name = (
-            f"ring magnet NdFeB N35, magnetised across, {2e3 * motor.magnet_radius:g} x "
-            f"{2e3 * motor.magnet_inner:g} x {motor.magnet_height * 1e3:g} mm"
+            f"ring magnet {ENCODER_MAGNET_MATERIAL}, magnetised across, "
+            f"{2e3 * motor.magnet_radius:g} x {2e3 * motor.magnet_inner:g} x "
+            f"{motor.magnet_height * 1e3:g} mm"
         )
     else:
         magnets = magnets_of(2.0 * motor.magnet_radius, motor.magnet_height)
         size = f"{2e3 * motor.magnet_radius:g} x {motor.magnet_height * 1e3:g} mm"
-        magnet_name = magnets[0].name if magnets else f"diametric magnet NdFeB N35 {size}"
+        magnet_name = (
+            magnets[0].name if magnets else f"diametric magnet {ENCODER_MAGNET_MATERIAL} {size}"
+        )
     magnet, board = encoder_shapes.encoder_magnet(motor), encoder_shapes.encoder_board
     return [
-        piece("encoder magnet", magnet, MAGNET_MATERIAL, _MAGNET, magnet_name, body=SHAFT,
-              z=motor.magnet_bottom),
+        piece("encoder magnet", magnet, ENCODER_MAGNET_MATERIAL, _MAGNET, magnet_name,
+              body=SHAFT, z=motor.magnet_bottom),
         piece("encoder board", board(motor, on_board), BOARD_MATERIAL, _BOARD, board_name,
               features=on_board),
         _screws("encoder screw", motor.board_screw, fastener, board_circle(motor), motor.board_top),

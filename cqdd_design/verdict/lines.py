@@ -18,11 +18,13 @@ from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.gearbox.contact.rubbing import ContactFriction
 from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 from cqdd_design.gearbox.film.plastics import rubbing_plastics, sliding_plastics
+from cqdd_design.gearbox.life import life
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine
 from cqdd_design.results import Check
 from cqdd_design.verdict.asked import asked_lines
 from cqdd_design.verdict.creep_lines import creep_lines
+from cqdd_design.verdict.cures import torques_that_hold
 from cqdd_design.verdict.drawn import yield_line
 from cqdd_design.verdict.evidence import Evidence
 from cqdd_design.verdict.joint_lines import joint_lines
@@ -89,7 +91,12 @@ def _carried(machine: Machine) -> dict[str, Check]:
     }
     try:
         loads = PeakLoads.of(peak, contacts.greatest(peak))
-        found |= {check.id: check for check in peak_checks(state, loads)}
+        cures = torques_that_hold(
+            lambda torque: peak_checks(state, PeakLoads.of(torque, contacts.greatest(torque))),
+            peak,
+            peak_checks(state, loads),
+        )
+        found |= {check.id: check for check in peak_checks(state, loads, cures)}
     except ContactError as error:
         reach = contacts.reach(peak)
         found["CONTACT-REACH"] = build_check(
@@ -102,8 +109,24 @@ def _carried(machine: Machine) -> dict[str, Check]:
         )
     # Without an answer what stands there already says so.
     with suppress(ContactError):
-        found |= {check.id: check for check in lasting_checks(state, machine.life)}
+        found |= {check.id: check for check in _lasting(machine)}
     return found
+
+
+def _lasting(machine: Machine) -> tuple[Check, ...]:
+    """Lines over the duty; ContactError where a case has no equilibrium."""
+    state, lived = machine.analysis, machine.life
+    found = lasting_checks(state, lived)
+    if not lived.assumed:
+        # A duty has as many torques as cases.
+        return found
+
+    def at(torque: float) -> tuple[Check, ...]:
+        lowered = machine.design.replacing({"requirements.continuous_torque": torque})
+        return lasting_checks(state, life(lowered, machine.contact))
+
+    held = machine.design.requirements.continuous_torque
+    return lasting_checks(state, lived, torques_that_hold(at, held, found))
 
 
 def _rubbing(machine: Machine) -> tuple[Check, ...]:

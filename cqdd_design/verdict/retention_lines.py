@@ -116,7 +116,7 @@ def _play(
     lacking = _mm(max(-left[least], 0.0))
     spacing = machine.design.reducer.disc_spacing + max(-left[least], 0.0)
     if not known:
-        cure = "see why they are not known"
+        cure = "see THERMAL-RISE, which says what is not known"
     elif least.kit is None:
         cure = f"raise disc_spacing to {_mm(spacing)} mm, for lengths take {lacking} mm too much"
     else:

@@ -41,6 +41,7 @@ from cqdd_design.report.actuator.bench_charts import Response, bode, spectrum
 from cqdd_design.report.actuator.bench_figures import efficiency_maps
 from cqdd_design.report.actuator.bench_table import (
     RELATIONS,
+    bench_row,
     bench_view,
     comparison,
     off_by,
@@ -646,3 +647,21 @@ def test_a_motor_that_cannot_be_simulated_leaves_a_sentence(design: Design) -> N
     assert 'href="#actuator"' in page
     assert 'href="#bench"' not in page
     assert 'id="bench"' not in page
+
+
+def test_the_paper_is_spoken_of_beside_its_own_actuator_alone(
+    found: tuple[ActuatorParameters, BenchResult],
+) -> None:
+    measured = found[1]
+    for beside in (True, False):
+        told = dataclasses.replace(measured, beside_paper=beside)
+        rows = [bench_row(one, told) for one in measured.metrics]
+        gains = [row for row in rows if row["relation"] == "not comparable"]
+        assert gains
+        assert all(("The paper gives no gains." in row["protocol"]) is beside for row in gains)
+        assert all("*" not in row["protocol"] for row in rows)
+
+
+def test_cogging_is_called_so_among_the_orders_of_the_ripple(page: str) -> None:
+    assert "2520: cogging 1" in page
+    assert "crank and ring teeth 252" not in page

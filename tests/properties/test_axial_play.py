@@ -140,6 +140,7 @@ def test_heat_that_is_not_known_takes_no_figure(machine: Machine) -> None:
     assert "temperatures are not known" in words
     assert "heat takes" not in words
     assert "lacking" not in words
+    assert line.remedy.startswith("see THERMAL-RISE")
 
 
 def test_heat_and_cold_take_from_the_play_that_is_judged(machine: Machine) -> None:

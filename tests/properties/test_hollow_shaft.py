@@ -36,6 +36,7 @@ from cqdd_design.solids.encoder_rules import (
 )
 from cqdd_design.solids.mesh import DISPLAY
 from cqdd_design.solids.motor_layout import MotorEnd
+from cqdd_design.solids.motor_parts import encoder_parts
 from cqdd_design.solids.retention import _enclosed
 from cqdd_design.solids.tool_access import reaches
 from cqdd_design.verdict.bore_line import bore_line
@@ -274,3 +275,10 @@ def test_a_refusal_names_the_bore_beside_torque_and_space() -> None:
     ):
         with pytest.raises(InfeasibleError, match=told):
             size_to_verdict(requirements_from_mapping(asked | {"bore": wide}))
+
+
+def test_an_encoder_s_magnet_is_of_what_its_designation_says(machines: dict[str, Machine]) -> None:
+    for machine in (machines[name] for name in DRAWN):
+        magnet, *_ = encoder_parts(machine.design, end_of(machine), "Alloy steel 12.9 (ISO 7379)")
+        assert magnet.material == "NdFeB N35"
+        assert magnet.material in magnet.designation

@@ -225,8 +225,7 @@ def position_bandwidth(
         "not comparable",
         f"Stepped sine of {amplitude_deg:g} deg amplitude, impedance control with "
         f"{parameters.drive.position_gain:g} N*m/rad and {parameters.drive.velocity_gain:g} "
-        f"N*m*s/rad at {voltage:g} V, output free; gain of the fundamental, -3 dB. The paper gives "
-        "no gains.",
+        f"N*m*s/rad at {voltage:g} V, output free; gain of the fundamental, -3 dB.",
         details={
             "limit_by_speed_Hz": by_speed,
             "limit_by_torque_Hz": by_torque,

@@ -7,6 +7,8 @@ what lasts the required hours over the duty, every place with the cycles that it
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
 from typing import NamedTuple
 
 from cqdd_design.catalog.materials import Material, find_material
@@ -20,10 +22,8 @@ from cqdd_design.gearbox.checks.remedies import (
     MaterialRule,
     better_held,
     harder_parts,
-    lower_torque,
-    softer_contact,
+    lower_to,
     stronger_pins,
-    torque_words,
 )
 from cqdd_design.gearbox.checks.state import GearboxState, build_check
 from cqdd_design.gearbox.life import LifeResult
@@ -37,6 +37,11 @@ MODEL = "contact equilibrium of perfect parts, driving with friction"
 DUTY_MODEL = f"fatigue over the duty by the {MODEL}"
 ENDLESS = 1e9
 """Hours told of what does not wear out or never turns."""
+Cures = Mapping[str, float]
+"""Torques at which failing lines hold, N m, by check: those of the peak for lines of the peak,
+continuous ones for lines of the duty; 0 where none does. A line without one is told by proportion,
+which misses where fewer teeth share less torque."""
+NO_CURES: Cures = MappingProxyType({})
 _MEGA = 1e6
 _RING_SPREAD = "raise ring_pitch_radius or disc_count"
 _PIN_SPREAD = "raise output_pins.circle_radius or count"
@@ -71,22 +76,43 @@ class PeakLoads(NamedTuple):
         )
 
 
-def peak_checks(state: GearboxState, loads: PeakLoads) -> tuple[Check, ...]:
+def peak_checks(
+    state: GearboxState, loads: PeakLoads, cures: Cures = NO_CURES
+) -> tuple[Check, ...]:
     """Checks at the peak torque, by ids of :mod:`.loads` and :mod:`.runners`."""
-    return (*_pressures(state, loads), *_pins(state, loads), *_statics(state, loads))
+    return (
+        *_pressures(state, loads, cures),
+        *_pins(state, loads, cures),
+        *_statics(state, loads, cures),
+    )
 
 
-def lasting_checks(state: GearboxState, life: LifeResult) -> tuple[Check, ...]:
+def lasting_checks(
+    state: GearboxState, life: LifeResult, cures: Cures = NO_CURES
+) -> tuple[Check, ...]:
     """Checks over the required hours of the duty, likewise."""
     ring, flanks, holes, pins, bending = life.parts
     return (
-        _lasting("CONTACT-RING-CONTINUOUS", state, life, (ring, flanks)),
-        _lasting("CONTACT-PIN-CONTINUOUS", state, life, (holes, pins)),
-        _lasting("PIN-BENDING-CONTINUOUS", state, life, (bending,)),
-        _cam_life(state, life),
-        *(_runner_life(state, life, one) for one in life.runners),
-        *_ring_pin_lasting(state, life),
+        _lasting("CONTACT-RING-CONTINUOUS", state, life, (ring, flanks), cures),
+        _lasting("CONTACT-PIN-CONTINUOUS", state, life, (holes, pins), cures),
+        _lasting("PIN-BENDING-CONTINUOUS", state, life, (bending,), cures),
+        _cam_life(state, life, cures),
+        *(_runner_life(state, life, one, cures) for one in life.runners),
+        *_ring_pin_lasting(state, life, cures),
     )
+
+
+def _lower_peak(check_id: str, torque: float, share: float, cures: Cures) -> str:
+    """How far to lower the peak torque (N m) of which a line bears a share."""
+    return lower_to(cures.get(check_id, torque * share))
+
+
+def _lower_duty(check_id: str, life: LifeResult, share: float, cures: Cures) -> str:
+    """The same of the continuous torque; of a duty its torques are meant."""
+    if not life.assumed:
+        return "lower the torques of the duty"
+    torque = cures.get(check_id, life.duty[0].torque * share)
+    return lower_to(torque, "continuous torque")
 
 
 def _limited(
@@ -105,7 +131,7 @@ def _limited(
     )
 
 
-def _pressures(state: GearboxState, loads: PeakLoads) -> tuple[Check, ...]:
+def _pressures(state: GearboxState, loads: PeakLoads, cures: Cures) -> tuple[Check, ...]:
     reducer, rule = state.design.reducer, allowables.contact_limit_static
     disc = find_material(reducer.disc_material)
 
@@ -120,7 +146,8 @@ def _pressures(state: GearboxState, loads: PeakLoads) -> tuple[Check, ...]:
             allowed,
             f"{pressure / _MEGA:.1f} MPa (F up to {force:.1f} N a disc, b {thickness * 1e3:g} mm) "
             f"at {loads.torque:g} N*m",
-            softer_contact(thickness, loads.torque, pressure, allowed.value)
+            _lower_peak(check_id, loads.torque, (allowed.value / max(pressure, 1.0)) ** 2, cures)
+            + ", or "
             + harder_parts({"disc": disc, part: other}, rule, pressure, spread),
         )
 
@@ -131,7 +158,7 @@ def _pressures(state: GearboxState, loads: PeakLoads) -> tuple[Check, ...]:
     )
 
 
-def _pins(state: GearboxState, loads: PeakLoads) -> tuple[Check, ...]:
+def _pins(state: GearboxState, loads: PeakLoads, cures: Cures) -> tuple[Check, ...]:
     reducer, pins = state.design.reducer, state.design.reducer.output_pins
     material = find_material(pins.material)
     bending, shear = allowables.pin_limit_peak, allowables.pin_shear_limit_peak
@@ -155,7 +182,13 @@ def _pins(state: GearboxState, loads: PeakLoads) -> tuple[Check, ...]:
             stress,
             allowed,
             f"{stress / _MEGA:.1f} MPa (F {force:.1f} N on {where}) at {loads.torque:g} N*m",
-            stronger_pins(state, stress, (rule, allowed), loads.torque, power),
+            stronger_pins(
+                state,
+                stress,
+                (rule, allowed),
+                _lower_peak(check_id, loads.torque, allowed.value / max(stress, 1.0), cures),
+                power,
+            ),
         )
 
     diameter, thickness = f"{pins.diameter * 1e3:g} mm", f"{reducer.disc_thickness * 1e3:g} mm"
@@ -180,7 +213,7 @@ def _pins(state: GearboxState, loads: PeakLoads) -> tuple[Check, ...]:
     )
 
 
-def _statics(state: GearboxState, loads: PeakLoads) -> tuple[Check, ...]:
+def _statics(state: GearboxState, loads: PeakLoads, cures: Cures) -> tuple[Check, ...]:
     """Static safety of the cam bearing and of needles, bending of ring pins under rollers."""
     seats: list[tuple[str, BearingResult, float, str]] = [
         ("BEARING-STATIC", state.cam_bearing, loads.cam_load, "a larger cam bearing"),
@@ -190,19 +223,21 @@ def _statics(state: GearboxState, loads: PeakLoads) -> tuple[Check, ...]:
     if state.rollers is not None:
         seats.append(("ROLLER-STATIC", state.rollers, loads.ring_force, "larger ring pins"))
     return (
-        *(_static(loads.torque, *seat) for seat in seats),
+        *(_static(loads.torque, *seat, cures) for seat in seats),
         *_ring_pin(
             state,
             "PEAK",
             loads.ring_force,
-            loads.torque,
+            lambda check_id, share: _lower_peak(check_id, loads.torque, share, cures),
             allowables.pin_limit_peak(find_material(state.design.reducer.ring_material)),
             MODEL,
         ),
     )
 
 
-def _static(torque: float, check_id: str, seat: BearingResult, load: float, larger: str) -> Check:
+def _static(
+    torque: float, check_id: str, seat: BearingResult, load: float, larger: str, cures: Cures
+) -> Check:
     rating, name = seat.bearing.static_rating, seat.bearing.designation
     if not rating:
         told = f"the catalogue has no static rating of {name}"
@@ -214,13 +249,18 @@ def _static(torque: float, check_id: str, seat: BearingResult, load: float, larg
         allowables.STATIC_SAFETY,
         f"{name}: {rating:.0f} N/{load:.1f} N = {safety:.3f} at {torque:g} N*m",
         f"needs C0 of {load / 1e3 * allowables.STATIC_SAFETY:.3g} kN: take {larger}; or "
-        + lower_torque(torque, safety / allowables.STATIC_SAFETY),
+        + _lower_peak(check_id, torque, safety / allowables.STATIC_SAFETY, cures),
         model=MODEL,
     )
 
 
 def _ring_pin(
-    state: GearboxState, load: str, force: float, torque: float, allowed: Allowable, model: str
+    state: GearboxState,
+    load: str,
+    force: float,
+    lower: Callable[[str, float], str],
+    allowed: Allowable,
+    model: str,
 ) -> tuple[Check, ...]:
     """Bending of ring pins that rollers leave free from housing to clamp; none without rollers."""
     reducer = state.design.reducer
@@ -231,24 +271,29 @@ def _ring_pin(
     diameter = reducer.ring_pin_diameter
     stress = float(output_pins.bending_stress(force, arm, diameter))
     thicker = rounded_up(diameter * 1e3 * (stress / max(allowed.value, 1.0)) ** (1.0 / 3.0))
+    check_id = f"RING-PIN-BENDING-{load}"
     check = _limited(
-        f"RING-PIN-BENDING-{load}",
+        check_id,
         stress,
         allowed,
         f"32 x {force:.1f} N x {arm * 1e3:.4f} mm/(pi ({diameter * 1e3:g} mm)^3) = "
         f"{stress / _MEGA:.1f} MPa",
         f"raise ring_pin_diameter to {thicker:g} mm, or "
-        + lower_torque(torque, allowed.value / max(stress, 1.0)),
+        + lower(check_id, allowed.value / max(stress, 1.0)),
         model=model,
     )
     return (check,)
 
 
 def _lasting(
-    check_id: str, state: GearboxState, life: LifeResult, parts: tuple[PartLife, ...]
+    check_id: str,
+    state: GearboxState,
+    life: LifeResult,
+    parts: tuple[PartLife, ...],
+    cures: Cures,
 ) -> Check:
     """The part with the least reserve, against the stress that lasts the required hours."""
-    reducer, asked = state.design.reducer, state.design.requirements
+    reducer = state.design.reducer
     unknown = [part for part in parts if part.limit <= 0.0]
     if unknown:
         told = f"{unknown[0].part}: {unknown[0].stress / _MEGA:.1f} MPa; {unknown[0].basis}"
@@ -269,11 +314,8 @@ def _lasting(
         limit = worst.stress * worst.reserve
         hours = "no end" if worst.hours is None else f"{worst.hours:.3g} h"
         told = f"{worst.stress / _MEGA:.1f} MPa at the {worst.part}, {worst.place}: lasts {hours}"
-    torque = asked.continuous_torque
+    reserve = limit / worst.stress if worst.stress else 0.0
     if check_id != "PIN-BENDING-CONTINUOUS":
-        remedy = softer_contact(
-            reducer.disc_thickness, torque, worst.stress, limit, "continuous torque"
-        )
         share = limit / worst.limit
 
         def rule(material: Material) -> Allowable:
@@ -286,24 +328,25 @@ def _lasting(
         other = find_material(reducer.ring_material if at_ring else reducer.output_pins.material)
         pair = {"disc": disc, "ring" if at_ring else "pins": other}
         spread = _RING_SPREAD if at_ring else _PIN_SPREAD
-        remedy += harder_parts(pair, rule, worst.stress, spread)
+        ways = [
+            _lower_duty(check_id, life, reserve**2, cures),
+            harder_parts(pair, rule, worst.stress, spread),
+        ]
     else:
-        share = limit / worst.stress if worst.stress else 0.0
         ways = ["take thicker output_pins", *better_held(reducer)]
-        ways.append(f"lower the continuous torque to {torque_words(torque * share)}")
-        remedy = ", or ".join(ways)
+        ways.append(_lower_duty(check_id, life, reserve, cures))
     return build_check(
         check_id,
         worst.stress / _MEGA,
         limit / _MEGA,
         told,
-        remedy,
+        ", or ".join(ways),
         basis=f"lasts {life.required_hours:g} h over the duty; {worst.basis} at the knee",
         model=DUTY_MODEL,
     )
 
 
-def _cam_life(state: GearboxState, life: LifeResult) -> Check:
+def _cam_life(state: GearboxState, life: LifeResult, cures: Cures) -> Check:
     cam, required = life.cam, life.required_hours
     rating = state.cam_bearing.bearing.dynamic_rating
     if not rating:
@@ -321,12 +364,12 @@ def _cam_life(state: GearboxState, life: LifeResult) -> Check:
         f"{len(cam.equivalent_load)} x {cam.designation}, C {rating:.0f} N, equivalent load up to "
         f"{load:.1f} N: {cam.set_hours:.4g} h together",
         f"needs C of {rating / share / 1e3:.3g} kN: take a larger cam bearing; or "
-        + lower_torque(state.design.requirements.continuous_torque, share),
+        + _lower_duty("BEARING-LIFE", life, share, cures),
         model=DUTY_MODEL,
     )
 
 
-def _runner_life(state: GearboxState, life: LifeResult, runner: RunnerLife) -> Check:
+def _runner_life(state: GearboxState, life: LifeResult, runner: RunnerLife, cures: Cures) -> Check:
     check_id = "SLEEVE-LIFE" if runner.name == "sleeves" else "ROLLER-LIFE"
     required = life.required_hours
     if runner.unknown:
@@ -346,20 +389,19 @@ def _runner_life(state: GearboxState, life: LifeResult, runner: RunnerLife) -> C
         required,
         f"{runner.designation}: equivalent load {runner.equivalent_load:.1f} N, {hours:.4g} h "
         "together",
-        "use larger ones, or more; or "
-        + lower_torque(state.design.requirements.continuous_torque, share),
+        "use larger ones, or more; or " + _lower_duty(check_id, life, share, cures),
         model=DUTY_MODEL,
     )
 
 
-def _ring_pin_lasting(state: GearboxState, life: LifeResult) -> tuple[Check, ...]:
+def _ring_pin_lasting(state: GearboxState, life: LifeResult, cures: Cures) -> tuple[Check, ...]:
     """Bending of ring pins under rollers at the greatest force over the duty."""
     material = find_material(state.design.reducer.ring_material)
     return _ring_pin(
         state,
         "CONTINUOUS",
         max(one.ring_force for one in life.loads),
-        state.design.requirements.continuous_torque,
+        lambda check_id, share: _lower_duty(check_id, life, share, cures),
         # A pin of the ring is pushed outward, and by the one disc that passes.
         allowables.pin_bending_limit_continuous(material, duty_reverses=False),
         DUTY_MODEL,

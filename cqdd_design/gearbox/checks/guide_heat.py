@@ -15,7 +15,7 @@ ROWS = (
         "degC",
         "max",
         f"winding <= {WINDING_MOST:g}, warmest greased part <= {limits.GREASE_MOST:g}, "
-        "housing, and parts of the gearbox, <= what their material bears",
+        "housing and parts of the gearbox <= what their material bears",
         "At the duty, or at the continuous torque and input speed for ever, parts settle where "
         "their losses are carried off: by still air alone, or by what drive.thermal_resistance "
         "states. Shown is the part that uses most of the rise it is allowed. Losses are those of "

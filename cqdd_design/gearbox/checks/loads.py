@@ -110,7 +110,9 @@ def _pins(state: GearboxState) -> tuple[Check, ...]:
             allowed.value / _MEGA,
             f"{UNEVEN_SHARING:g} x {raw / _MEGA:.1f} MPa = {value / _MEGA:.1f} MPa "
             f"(F {force:.1f} N on {where}) at {load.torque:g} N*m",
-            stronger_pins(state, value, limits, load.torque, power),
+            stronger_pins(
+                state, value, limits, lower_torque(load.torque, limits[1].value / value), power
+            ),
             basis=allowed.basis,
         )
 

@@ -40,10 +40,17 @@ def lower_torque(torque: float, share: float) -> str:
     return f"lower the torque to {torque_words(torque * share)}"
 
 
-def softer_contact(
-    thickness: float, torque: float, pressure: float, limit: float, which: str = "torque"
-) -> str:
-    """Say what brings a Hertz pressure down to a limit: it grows with sqrt(T/b).
+def lower_to(torque: float, which: str = "torque") -> str:
+    """What to do where a line holds up to a torque (N m), by the name of the torque."""
+    if torque <= 0.0:
+        return f"no {which} is low enough"
+    return f"lower the {which} to {torque_words(torque)}"
+
+
+def softer_contact(thickness: float, torque: float, pressure: float, limit: float) -> str:
+    """Say what brings a Hertz pressure of the rigid law down to a limit: it grows with sqrt(T/b).
+
+    Where parts yield a thicker disc is a stiffer one too, and shares with fewer teeth.
 
     Parameters
     ----------
@@ -51,13 +58,11 @@ def softer_contact(
         b of a disc, m.
     torque : float
         T, N m.
-    which : str
-        Name of the torque.
     """
     if min(limit, pressure) <= 0.0:
         return ""
     share = (pressure / limit) ** 2
-    words = f"lower the {which} to {torque_words(torque / share)}, or "
+    words = f"{lower_to(torque / share)}, or "
     if share <= _MOST_THICKENING:
         words = f"raise disc_thickness to {rounded_up(thickness * 1e3 * share):g} mm, or " + words
     return words
@@ -145,7 +150,7 @@ def stronger_pins(
     state: GearboxState,
     value: float,
     limits: tuple[MaterialRule, Allowable],
-    torque: float,
+    lower: str,
     power: int,
 ) -> str:
     """Remedy for a pin stress that falls with d^power and with the number of pins.
@@ -153,16 +158,17 @@ def stronger_pins(
     Parameters
     ----------
     value : float
-        Pa, at `torque`, N m.
+        Pa.
     limits : tuple
         A pin material's limit, and that of this design.
+    lower : str
+        How far to lower the torque, in words.
     """
     rule, allowed = limits
     if allowed.value <= 0.0:
         return f"choose a pin material the catalogue knows strengths of: {allowed.basis}"
     pins = state.design.reducer.output_pins
     ratio = value / allowed.value
-    lower = f"lower the torque to {torque_words(torque / ratio)}"
     if power == 1 and pins.sleeve_diameter > 0.0:
         wider = rounded_up(pins.sleeve_diameter * 1e3 * ratio)
         return f"raise output_pins.sleeve_diameter to {wider:g} mm, or {lower}"

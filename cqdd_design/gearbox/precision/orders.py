@@ -34,15 +34,22 @@ class Order:
     amplitude: float
 
 
-def order_name(order: int, lobe_count: int, pin_count: int) -> str:
+def order_name(order: int, lobe_count: int, pin_count: int, cogging: int = 0) -> str:
     """Name an order over the output turn for what repeats so often.
 
     Errors fixed in the crank or in the ring's teeth repeat with the crank (n times a turn);
     errors fixed in the discs' lobes and holes or in the pins repeat as the crank meets them
     (n + 1 times); perfect parts repeat with every tooth, n (n + 1), or pin, N_w (n + 1).
 
+    Parameters
+    ----------
+    cogging : int
+        Periods of the motor's cogging in one of its turns; 0 where there is none.
+
     Examples
     --------
+    >>> order_name(2520, 10, 5, cogging=252)
+    'cogging 1'
     >>> order_name(10, 10, 5), order_name(11, 10, 5), order_name(110, 10, 5)
     ('crank 1', 'lobes and pins 1', 'teeth 1 (all)')
     """
@@ -53,6 +60,8 @@ def order_name(order: int, lobe_count: int, pin_count: int) -> str:
         return f"pins {order // (pin_count * met)} (all)"
     if order == n:
         return "crank 1"
+    if cogging > 1 and order % (n * cogging) == 0:
+        return f"cogging {order // (n * cogging)}"
     if order % n == 0:
         return f"crank and ring teeth {order // n}"
     if order % met == 0:

@@ -38,7 +38,8 @@ def bench_figures(
     """Figures of all traces there are."""
     unturned = BACKDRIVEN if holds_itself(parameters) else ()
     found = {m.name: m for m in bench.metrics if m.trace and m.name not in unturned}
-    n = abs(parameters.gear.ratio)
+    n, motor = abs(parameters.gear.ratio), parameters.motor
+    cogging = motor.cogging_order if motor.cogging_amplitude > 0.0 else 0
     drawing: dict[str, Callable[[Metric], list[Figure]]] = {
         "torque_bandwidth": _torque_bode,
         "position_bandwidth_45deg": _position_bode,
@@ -46,7 +47,7 @@ def bench_figures(
         "backlash": _backlash,
         "backdrive_static": lambda metric: _breakaway(metric, n),
         "backdrive_dynamic": _backdrive,
-        "torque_ripple": lambda metric: _ripple(metric, round(n), pin_count),
+        "torque_ripple": lambda metric: _ripple(metric, round(n), pin_count, cogging),
     }
     return tuple(
         figure for name, draw in drawing.items() if name in found for figure in draw(found[name])
@@ -202,7 +203,7 @@ def _backdrive(metric: Metric) -> list[Figure]:
     return [trace(words, ("output angle, °", turned), ("torque, N·m", resisting), level=level)]
 
 
-def _ripple(metric: Metric, n: int, pin_count: int) -> list[Figure]:
+def _ripple(metric: Metric, n: int, pin_count: int, cogging: int) -> list[Figure]:
     """The spectrum in orders, and its strongest by name."""
     order = metric.trace["order of the output"].astype(int)
     amplitude = metric.trace["amplitude [N m]"]
@@ -211,7 +212,7 @@ def _ripple(metric: Metric, n: int, pin_count: int) -> list[Figure]:
     if not strongest.size:
         return []
     scale, unit = (1e3, "mN\u00b7m") if float(amplitude.max()) < 0.1 else (1.0, "N\u00b7m")
-    names = [f"{order[k]}: {order_name(int(order[k]), n, pin_count)}" for k in strongest]
+    names = [f"{order[k]}: {order_name(int(order[k]), n, pin_count, cogging)}" for k in strongest]
     values = (scale * amplitude[strongest]).tolist()
     shown = [significant(value, 3) for value in values]
     whose = (

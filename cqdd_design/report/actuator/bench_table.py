@@ -88,6 +88,8 @@ def bench_row(metric: Metric, bench: BenchResult, *, holds: bool = False) -> Val
     if holds and metric.name in BACKDRIVEN:
         metric = dataclasses.replace(metric, value=math.nan, spread=None)
         protocol += " The gearbox holds itself: the output does not turn it."
+    if bench.beside_paper and metric.relation == "not comparable":
+        protocol += " The paper gives no gains."
     unit, factor = _SHOWN_UNITS.get(metric.unit, (pretty_unit(metric.unit), 1.0))
     paper = bench.paper(metric.name)
     return {

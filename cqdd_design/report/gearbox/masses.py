@@ -42,7 +42,7 @@ def bodies_view(design: Design, bodies: Bodies) -> Values:
         "total_of": printed(inertia.mass_scope),
         "groups": _groups(inertia),
         "paper": _beside_the_paper(design, inertia) if beside else (),
-        "reflected": _reflected(inertia),
+        "reflected": _reflected(inertia, beside=beside),
         "balance": _balance(design, bodies),
         "rule": _rule(design, bodies.balance),
         "chart": _chart(inertia),
@@ -154,11 +154,12 @@ def _told(inertia: float | None) -> str:
     return "not known" if inertia is None else _scaled(inertia)
 
 
-def _reflected(inertia: GearboxInertia) -> tuple[Row, ...]:
+def _reflected(inertia: GearboxInertia, *, beside: bool) -> tuple[Row, ...]:
     def shown(value: float | None) -> str:
         return "not known" if value is None else significant(1e4 * value, 4)
 
     printed_there = shown(METRICS["actuator_inertia"].value)
+    there = f"; the paper prints {printed_there} for its actuator, at the motor" if beside else ""
     return (
         (
             "gearbox, at the input",
@@ -173,8 +174,7 @@ def _reflected(inertia: GearboxInertia) -> tuple[Row, ...]:
         (
             "together, at the input",
             shown(inertia.reflected_input),
-            f"{printed(inertia.inertia_scope)}; the paper prints {printed_there} for its actuator, "
-            "at the motor",
+            printed(inertia.inertia_scope) + there,
         ),
         (
             "together, at the output",

@@ -55,6 +55,7 @@ def check_row(check: Check) -> Values:
         "substituted": printed(check.substituted),
         "why_not_known": sentence(printed(check.substituted)) if check.status == "unknown" else "",
         "remedy": "" if check.satisfied else sentence(printed(check.remedy)),
+        "why": printed(check.why),
         "basis": printed(check.basis),
         "source": printed(check.source).rstrip("."),
         "word": WORDS[check.status],
@@ -97,15 +98,19 @@ def printed(text: str) -> str:
         (" x ", f" {TIMES} "),
         (" - ", f" {MINUS} "),
         ("+-", "±"),
-        ("N*m", "N·m"),
-        ("g*mm", "g·mm"),
         ("sqrt(", "√("),
         ("<=", "≤"),
         (">=", "≥"),
     ):
         text = text.replace(plain, sign)
+    text = re.sub(r"(?<=[A-Za-z])\*(?=[A-Za-z])", "·", text)
     text = re.sub(r"(?<![^\s(])-(?=\d)", MINUS, text)
     text = re.sub(r"\b1e(\d)\b", lambda found: "10" + superscript(int(found[1])), text)
+    text = re.sub(
+        r"\b(\d(?:\.\d+)?)e([+-]\d+)\b",
+        lambda found: f"{found[1]} {TIMES} 10{superscript(int(found[2]))}",
+        text,
+    )
     text = re.sub(r"(?<=\d) degC\b", " °C", text)
     text = re.sub(r"(?<=\d) deg\b", "°", text)
     text = re.sub(r"\^3\b", "³", re.sub(r"\^2\b", "²", text))

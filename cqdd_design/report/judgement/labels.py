@@ -35,6 +35,7 @@ GROUPS = {
     "reducer.carrier_bearing": "Carrier bearing",
     "reducer.ring": "Ring",
     "reducer.friction": "Friction",
+    "reducer.finish": "Finish",
     "reducer.balance": "Balance",
     "motor": "Motor",
     "drive": "Drive",
