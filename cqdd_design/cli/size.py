@@ -166,6 +166,8 @@ def size(
 
 
 def _lines(road: Road, *, verbose: bool) -> list[str]:
+    from cqdd_design.design.requirements import DEFAULT_CONTINUOUS_SHARE
+
     design, sizing = road.design, road.sizing
     others = sum(not key.startswith("requirements.") for key in design.assumed)
     assumed = [key.split(".")[1] for key in design.assumed if key.startswith("requirements.")]
@@ -177,6 +179,8 @@ def _lines(road: Road, *, verbose: bool) -> list[str]:
     if design.requirements.load_cases:
         # The duty says what lasts, and nothing is judged by this.
         derived = derived - {"continuous_torque"}
+    if "peak_torque" not in derived:
+        motor += f", {DEFAULT_CONTINUOUS_SHARE:g} of the peak at most"
     defaults = [[f"  {key}", str(asked[key]), motor] for key in asked if key in derived]
     defaults += [[f"  {key}", str(asked[key]), ""] for key in assumed]
     rejected = [[f"  {reason}", f"{count:,}"] for reason, count in sizing.rejected.items() if count]

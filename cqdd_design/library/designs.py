@@ -205,7 +205,8 @@ def size(
     **asked
         Any other key of ``[requirements]`` (docs/how-to-duty.md), quantities with their unit:
         ``peak_torque="44 N*m"``, ``life="2000 h"``, ``efficiency=0.8``. ``yield_share`` is
-        ``yield`` there. Torques that are left out are what motor and gearbox can do.
+        ``yield`` there. Torques that are left out are what motor and gearbox can do, the
+        continuous one no more than 0.38 of a peak that is stated.
 
     Returns
     -------

@@ -12,6 +12,7 @@ from cqdd_design.actuator.operating import held_torque
 from cqdd_design.catalog.motors import Motor, find_motor
 from cqdd_design.design import Requirements
 from cqdd_design.design.motor import MotorTable
+from cqdd_design.design.requirements import DEFAULT_CONTINUOUS_SHARE
 from cqdd_design.errors import ContactError, DesignError, InfeasibleError
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine
@@ -112,7 +113,10 @@ def what_it_can(
                 f"{actuator.thermal.ambient:g} degC: its own drag and the gearbox's heat it to its "
                 "limit; state continuous_speed, a duty, or another motor."
             )
-        able = min(rounded_down(most, _DIGITS), changed.get(PEAK, requirements.peak_torque))
+        able = min(
+            rounded_down(min(most, _most_lasting(requirements)), _DIGITS),
+            changed.get(PEAK, requirements.peak_torque),
+        )
         asked = requirements.continuous_torque
         if asked > most or (may_rise and asked < able * (1.0 - _SAME)):
             changed[CONTINUOUS] = able
@@ -130,3 +134,14 @@ def cooler(requirements: Requirements) -> Requirements | None:
 def _with(requirements: Requirements, changed: Mapping[str, Any]) -> Requirements:
     changes = dict(changed)
     return requirements.unchecked_copy(changes) if changes else requirements
+
+
+def _most_lasting(requirements: Requirements) -> float:
+    """The most continuous torque that is asked for where none is stated, N m.
+
+    Of a peak torque that is stated the usual share: at a high ratio a motor may hold nearly all of
+    it for ever, and a gearbox that lasts at that is several times as heavy.
+    """
+    if PEAK in requirements.derived:
+        return math.inf
+    return DEFAULT_CONTINUOUS_SHARE * requirements.peak_torque

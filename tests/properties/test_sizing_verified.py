@@ -179,6 +179,23 @@ def test_they_become_what_the_motor_can_do(machine: Machine) -> None:
         what_it_can(machine, first_guess(asked(input_speed="3000 rpm"), None), may_rise=True)
 
 
+def test_of_a_stated_peak_no_more_than_the_usual_share_has_to_last(machine: Machine) -> None:
+    """At a high ratio the motor may hold nearly all of it."""
+    held = float(held_torque(actuator_parameters(machine), HELD_SPEED / 10)[0])
+    stated = first_guess(asked(peak_torque="10 N*m"), None)
+    assert 0.95 * held > 3.8
+    raised = what_it_can(machine, stated, may_rise=True)
+    assert raised is not None
+    assert raised.continuous_torque == 3.8
+    assert what_it_can(machine, raised, may_rise=True) is None
+    # What it does not hold is still lowered to what it does.
+    high = first_guess(asked(peak_torque="60 N*m"), None)
+    high = high.unchecked_copy({"continuous_torque": 22.0})
+    lowered = what_it_can(machine, high, may_rise=True)
+    assert lowered is not None
+    assert 0.85 * held < lowered.continuous_torque <= held
+
+
 def test_a_motor_that_no_gearbox_makes_strong_enough_ends_the_search(
     machine: Machine, monkeypatch: pytest.MonkeyPatch
 ) -> None:
