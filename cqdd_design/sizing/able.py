@@ -114,7 +114,8 @@ def what_it_can(
                 "limit; state continuous_speed, a duty, or another motor."
             )
         able = min(
-            rounded_down(min(most, _most_lasting(requirements)), _DIGITS),
+            rounded_down(most, _DIGITS),
+            _most_lasting(requirements),
             changed.get(PEAK, requirements.peak_torque),
         )
         asked = requirements.continuous_torque
