@@ -5,9 +5,9 @@ of what is still in place. Screws leave on the side of their heads, and what the
 waits for them; nuts leave along their threads. Where no single thing can move, a unit does: one
 thing with all that it pushes before it, such as the carrier with discs and shaft, which is put
 together on the bench (Wilson and Latombe 1994, blocking graphs). Spacers, such as a carrier's
-columns, leave as soon as they can: put in any earlier they would have nothing to stand on. What is bonded into a part that
-comes in later, as magnets into their bell, and weights on it, leaves with it and is a unit too.
-Put together is the same backwards.
+columns, leave as soon as they can: put in any earlier they would have nothing to stand on. What is
+bonded into a part that comes in later, as magnets into their bell, and weights on it, leaves with
+it and is a unit too. Put together is the same backwards.
 """
 
 from __future__ import annotations
