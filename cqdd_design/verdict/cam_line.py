@@ -36,7 +36,7 @@ def cam_line(machine: Machine, warm: MachineTemperatures | None) -> Check | None
         now = _judged(machine, cam, warm, machine.design.requirements.peak_torque)
     except (CatalogError, ContactError, GeometryError) as error:
         return build_check(CAM_JOINT, None, None, error.message, "see why it is not known")
-    if now.status != "fail":
+    if now.status != "fail" or not now.limit:
         return now
     peak = machine.design.requirements.peak_torque
     held = torques_that_hold(lambda at: (_judged(machine, cam, warm, at),), peak, (now,))

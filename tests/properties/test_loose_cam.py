@@ -120,6 +120,20 @@ def test_a_cam_that_is_too_weak_fails_and_its_remedy_cures(machine: Machine) -> 
     assert cured.margin < 1.01
 
 
+def test_no_torque_is_looked_for_where_the_compound_has_no_strength_left(
+    machine: Machine, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    machine.peak_pack  # noqa: B018 (kept, so that a call below is one of the search)
+
+    def refused(self: Machine, torque: float) -> PackLoads:
+        raise AssertionError(torque)
+
+    monkeypatch.setattr(Machine, "pack_at", refused)
+    burnt = cam_line(machine, warm(180.0))
+    assert burnt is not None
+    assert burnt.status == "fail"
+
+
 def test_sizing_answers_it_as_other_lines_of_the_shaft() -> None:
     """By a wider bore of the cam bearing, or less of a peak torque that was not stated."""
     assert CAM_JOINT in SHAFT & AT_PEAK & BONDS
