@@ -47,6 +47,7 @@ CHECKS = (
     "DOWEL-SHEAR",
     "DOWEL-BEARING",
     "BELL-JOINT",
+    "CAM-JOINT",
     "SCREW-SLIP",
     "SCREW-PRELOAD",
     "SCREW-THREAD",

@@ -8,16 +8,19 @@ from cqdd_design.design.fields import FrozenModel, Share, default
 from cqdd_design.units import SMALL_LENGTH, QuantityIn
 
 _Error = Annotated[
-    float, QuantityIn(SMALL_LENGTH, "-1000 um", "1000 um", "measured less drawn, on the diameter")
+    float,
+    QuantityIn(
+        SMALL_LENGTH, "-1000 um", "1000 um", "measured less drawn and shrunk, on the diameter"
+    ),
 ]
 
 
 class Printing(FrozenModel):
     """A printer and its material as a test coupon shows them.
 
-    `hole_error` and `outside_error` are diameters as measured less those of the file, which
-    files of printed parts are then corrected by; `shrinkage` is the share by which long dimensions
-    come out short, that of the material where it is left out.
+    `hole_error` and `outside_error` are diameters as measured less what the shrinkage alone leaves
+    of those of the file, which files of printed parts are then corrected by; `shrinkage` is the
+    share by which long dimensions come out short, that of the material where it is left out.
     """
 
     hole_error: _Error = default("0 um")

@@ -257,7 +257,11 @@ class Machine:
 
     @cached_property
     def peak_pack(self) -> PackLoads:
-        """Forces of the discs at the peak torque, both senses, driving with friction.
+        """Forces of the discs at the peak torque, see `pack_at`."""
+        return self.pack_at(self.design.requirements.peak_torque)
+
+    def pack_at(self, torque: float) -> PackLoads:
+        """Forces of the discs at an output torque, N m, in both senses, driving with friction.
 
         ContactError where it has no equilibrium.
         """
@@ -265,7 +269,7 @@ class Machine:
         from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
         from cqdd_design.gearbox.pack_loads import PackLoads
 
-        model, torque = self.contact, self.design.requirements.peak_torque
+        model = self.contact
         rubbed, angles = ContactFriction.of(model, "drive"), perfect_angles(model, _PEAK_ANGLES)
         return PackLoads.of(
             [contact_sweep(model, one, angles, friction=rubbed) for one in (torque, -torque)]

@@ -19,16 +19,18 @@ from cqdd_design.verdict.bore_line import bore_line
 from cqdd_design.verdict.rotor_lines import rotor_lines
 from cqdd_design.verdict.shaft_lines import shaft_lines
 
-BOND = "BELL-JOINT"
+_CAM = "CAM-JOINT"
+BONDS = frozenset({"BELL-JOINT", _CAM})
+"""Lines of what is bonded on the shaft: the colder, the stronger."""
 ENDS = "SUPPORT-STATIC"
-AT_PEAK = frozenset({"SHAFT-STRENGTH", ENDS})
-"""Lines of the shaft that less peak torque helps: the strength in proportion, the bearings by less,
-since what the rotor puts on them stays."""
+AT_PEAK = frozenset({"SHAFT-STRENGTH", ENDS, _CAM})
+"""Lines of the shaft that less peak torque helps: the strength and a loose cam's bond about in
+proportion, the bearings by less, since what the rotor puts on them stays."""
 ROTOR = frozenset({"SHAFT-ROTOR-GAP", "SHAFT-STUB"})
 """Lines of what hangs on the shaft's stub."""
 ANY_TORQUE = ROTOR | {"BORE"}
 """Lines that no less torque helps."""
-SHAFT = AT_PEAK | ANY_TORQUE | {"SHAFT-FATIGUE", "SUPPORT-LIFE", BOND}
+SHAFT = AT_PEAK | ANY_TORQUE | {"SHAFT-FATIGUE", "SUPPORT-LIFE"} | BONDS
 """Lines that a cam bearing with a wider bore helps."""
 THICKNESS = frozenset({"SHAFT-STRENGTH", "SHAFT-FATIGUE"})
 """Lines that a thinner shaft does worse."""
@@ -38,7 +40,7 @@ _WIDER, _SAME = 1.001, 0.999
 
 
 def weak_lines(machine: Machine) -> tuple[Check, ...]:
-    """Lines of `SHAFT` that a machine does not meet, but for the bond, which hangs on heat.
+    """Lines of `SHAFT` that a machine does not meet, but for the bonds, which hang on heat.
 
     With rigid discs and ring, whose forces are within a few per cent.
     """

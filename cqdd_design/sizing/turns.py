@@ -12,7 +12,7 @@ from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.kinds import promising
 from cqdd_design.sizing.looks import HOT, clearance_needed, motor_far_short, read_spread
 from cqdd_design.sizing.refusals import short_of
-from cqdd_design.sizing.shafts import BOND, SHAFT, stronger_shaft
+from cqdd_design.sizing.shafts import BONDS, SHAFT, stronger_shaft
 from cqdd_design.sizing.spaces import FITS, Found
 from cqdd_design.verdict import Verdict
 
@@ -69,7 +69,7 @@ def next_step(hunt: Hunt, found: Found, judged: Verdict) -> float | None:
     if less is not None:
         hunt.requirements, hunt.lowered, hunt.lowered_by = less, True, found.cam
         # What is cooler is bonded better.
-        failing -= {HOT, "MOTOR-CONTINUOUS", BOND}
+        failing -= {HOT, "MOTOR-CONTINUOUS", *BONDS}
         if not failing:
             return 0.0
     others = failing - {"YIELD", "THERMAL-CLEARANCE", *SHAFT}

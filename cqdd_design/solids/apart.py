@@ -4,9 +4,10 @@ A piece that moves sweeps the prism under its shape; it can leave where that pri
 of what is still in place. Screws leave on the side of their heads, and what they are screwed into
 waits for them; nuts leave along their threads. Where no single thing can move, a unit does: one
 thing with all that it pushes before it, such as the carrier with discs and shaft, which is put
-together on the bench (Wilson and Latombe 1994, blocking graphs). What is bonded into a part that
-comes in later, as magnets into their bell, and weights on it, leaves with it and is a unit too.
-Put together is the same backwards.
+together on the bench (Wilson and Latombe 1994, blocking graphs). Spacers, such as a carrier's
+columns, leave as soon as they can: put in any earlier they would have nothing to stand on. What is
+bonded into a part that comes in later, as magnets into their bell, and weights on it, leaves with
+it and is a unit too. Put together is the same backwards.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ import numpy as np
 from cqdd_design.geometry.contours import FloatArray, PlanarPart
 from cqdd_design.solids.counterweights import NAMES as WEIGHTS
 from cqdd_design.solids.disassembly import disassembly_order
-from cqdd_design.solids.features.kinds import AxialThread, Joint
+from cqdd_design.solids.features.kinds import AxialThread, Joint, Shoulder
 from cqdd_design.solids.layers import Layer
 from cqdd_design.solids.stations import Station, stations
 
@@ -99,6 +100,7 @@ def taken_apart(design: Design, parts: Sequence[Part]) -> tuple[tuple[Step, ...]
     middle = len(order) / 2.0
     outward = sorted(range(len(order)), key=lambda place: -abs(place - middle))
     things = [_Thing(design, found[order[place]]) for place in outward]
+    things.sort(key=lambda thing: not thing.is_spacer)
     return _take(things, "", _bonds(things))
 
 
@@ -240,6 +242,12 @@ class _Thing:
     def is_screw(self) -> bool:
         """Whether it is a fastener with a head."""
         return self.station.off_axis and self._head is not None
+
+    @property
+    def is_spacer(self) -> bool:
+        """Whether it stands off the axis between two faces that are clamped on it."""
+        faces = {one.facing for one in self.station.part.features if isinstance(one, Shoulder)}
+        return self.station.off_axis and faces == {"up", "down"}
 
     @cached_property
     def _head(self) -> Way | None:

@@ -23,6 +23,7 @@ from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine
 from cqdd_design.results import Check
 from cqdd_design.verdict.asked import asked_lines
+from cqdd_design.verdict.cam_line import cam_line
 from cqdd_design.verdict.creep_lines import creep_lines
 from cqdd_design.verdict.cures import torques_that_hold
 from cqdd_design.verdict.drawn import yield_line
@@ -56,6 +57,7 @@ def verdict_lines(evidence: Evidence) -> tuple[Check, ...]:
         *shaft_lines(machine),
         *rotor_lines(machine),
         *joint_lines(machine, evidence.temperatures),
+        *((cam,) if (cam := cam_line(machine, evidence.temperatures)) is not None else ()),
         *screw_lines(machine),
         *retention_lines(machine, evidence.temperatures),
         *_rubbing(machine),

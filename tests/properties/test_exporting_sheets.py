@@ -43,7 +43,14 @@ from cqdd_design.solids.features.holes import (
     PlainHole,
     TappedHole,
 )
-from cqdd_design.solids.features.kinds import AxialThread, Chamfer, Groove, Seat, Shoulder, Undercut
+from cqdd_design.solids.features.kinds import (
+    AxialThread,
+    Chamfer,
+    Groove,
+    Seat,
+    Shoulder,
+    Undercut,
+)
 
 MM = 1e3
 NUMBER = r"(\d+(?:\.\d+)?)"
@@ -96,10 +103,11 @@ def has_fit(texts, feature):
 
 
 def has_frame(texts, value, datums, lead=""):
-    """A tolerance and its datums, in this order, one text each."""
+    """A tolerance and its datums, in this order, one text each, a common one in one."""
+    cells = re.findall("[A-Z](?:-[A-Z])*", datums)
     for i, text in enumerate(texts):
         found = re.fullmatch(rf"{lead}{NUMBER}", text)
-        if found and near(found[1], MM * value) and texts[i + 1 : i + 1 + len(datums)] == [*datums]:
+        if found and near(found[1], MM * value) and texts[i + 1 : i + 1 + len(cells)] == [*cells]:
             return True
     return False
 

@@ -211,10 +211,13 @@ def read_back(path: Path) -> list[tuple[str, float, str, int]]:
         letters = [
             XCAFDoc_Datum.Set_s(datums.Value(k)).GetObject() for k in range(1, datums.Length() + 1)
         ]
-        ordered = sorted(letters, key=lambda one: one.GetPosition())
+        places: dict[int, list[str]] = {}
+        for one in letters:
+            places.setdefault(one.GetPosition(), []).append(one.GetName().ToCString())
         stated = XCAFDoc_GeomTolerance.Set_s(labels.Value(i)).GetObject()
         kind = stated.GetType().name.rpartition("_")[2]
-        named = "".join(one.GetName().ToCString() for one in ordered)
+        # Those that share a place in the frame are a common datum.
+        named = "".join("-".join(sorted(places[one])) for one in sorted(places))
         read.append((kind, round(stated.GetValue(), 6), named, faces.Length()))
     return sorted(read)
 

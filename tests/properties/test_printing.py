@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import zipfile
 from collections import Counter
 
@@ -78,6 +79,42 @@ def test_what_the_printer_does_to_a_file_gives_the_drawing(machine):
             if isinstance(drawn.shape.outer, Circle):
                 printed = 2.0 * layer.shape.outer.radius * (1.0 - 0.004) + 50e-6
                 assert printed == pytest.approx(2.0 * drawn.shape.outer.radius, abs=1e-12)
+
+
+def test_a_measured_coupon_brings_sizes_back_as_drawn(machine, every):
+    """A printer prints the coupon; what its README asks for makes it print the parts as drawn.
+
+    Shrinkage is in the measured bores and pins too: it counts once.
+    """
+    shrunk, small, large = 0.006, -90e-6, 40e-6
+    parts = [one.drawn for one in every]
+    test = coupon(parts, "PLA")
+    plate, *raised = test.part.shape.layers
+    bores = [2.0 * hole.radius for hole in plate.shape.holes]
+    pins = [2.0 * one.shape.outer.radius for one in raised if isinstance(one.shape.outer, Circle)]
+    measured = [(1.0 - shrunk) * one + small for one in bores]
+    grown_pins = [(1.0 - shrunk) * one + large for one in pins]
+    text = " ".join(readme_text(machine.design, every, test).split())
+    found = re.search(
+        r"bores, drawn ([\d.]+) mm in the mean, and pins, drawn ([\d.]+) mm, the errors are the "
+        r"mean of all as measured less \(1 - shrinkage\) times that",
+        text,
+    )
+    hole, pin = (1e-3 * float(one) for one in found.groups())
+    by = Compensation(
+        shrunk,
+        float(np.mean(measured)) - (1.0 - shrunk) * hole,
+        float(np.mean(grown_pins)) - (1.0 - shrunk) * pin,
+        measured=True,
+    )
+    part = next(one for one in parts if one.name == "ring clamp")
+    for made, drawn in zip(compensated(part, by).shape.layers, part.shape.layers, strict=True):
+        for file, wanted in zip(made.shape.holes, drawn.shape.holes, strict=True):
+            if isinstance(file, Circle):
+                printed = 2.0 * file.radius * (1.0 - shrunk) + small
+                assert printed == pytest.approx(2.0 * wanted.radius, abs=1e-6)
+        printed = 2.0 * made.shape.outer.radius * (1.0 - shrunk) + large
+        assert printed == pytest.approx(2.0 * drawn.shape.outer.radius, abs=1e-6)
 
 
 def test_curves_move_along_their_normals(machine):

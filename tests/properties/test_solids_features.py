@@ -29,6 +29,7 @@ from cqdd_design.solids.features.kinds import (
     Shoulder,
     TrueFace,
     Undercut,
+    datum_cells,
 )
 from cqdd_design.solids.features.making import point_length
 from cqdd_design.solids.features.removal import cuts, drillings
@@ -286,10 +287,18 @@ def test_every_datum_that_is_referred_to_is_set_on_its_part(name: str) -> None:
             # Cut sheets have their lower face as B.
             letters.add("B")
         for feature in part.features:
-            asked = set(getattr(feature, "refers", ""))
+            asked = set(getattr(feature, "refers", "").replace("-", ""))
             seen += len(asked)
             assert asked <= letters, (part.name, feature)
     assert seen > 10
+
+
+def test_the_shaft_turns_about_the_common_axis_of_its_journals() -> None:
+    """ISO 5459: one cell with A-B. In two cells B would but stop what A leaves free, nothing."""
+    part = next(one for one in known_parts("paper") if one.name == "eccentric shaft")
+    frames = [f for f in part.features if isinstance(f, Seat) and (f.run_out or f.position)]
+    assert len(frames) >= 4
+    assert {datum_cells(one.refers) for one in frames} == {("A-B",)}
 
 
 def test_tapped_holes_are_drilled_for_their_tap() -> None:

@@ -1,7 +1,7 @@
 """Prices that a user fills in: a CSV file of designation, price, currency and vendor.
 
 Bought parts are named by their designation in the bill, made ones by the name of the part. Rows of
-parts that this machine does not use are left alone, as long as a catalogue knows them.
+parts that this machine does not use are left alone, as long as another may have them.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 from cqdd_design.errors import UsageError, nearest_names, shown
-from cqdd_design.exporting.bill.known import catalogue_designations
+from cqdd_design.exporting.bill.known import MADE_PARTS, catalogue_designations, is_to_size
 from cqdd_design.files import read_regular_file
 
 COLUMNS = ("designation", "price", "currency", "vendor")
@@ -59,25 +59,25 @@ class PriceList:
         Parameters
         ----------
         machine : iterable of str
-            What the machine's bill calls its parts, beside what catalogues know.
+            What the machine's bill calls its parts, beside what any machine may have.
 
         Raises
         ------
         UsageError
             Naming the row and the nearest designations.
         """
-        own = list(machine)
+        own = list(dict.fromkeys((*machine, *sorted(MADE_PARTS))))
         known = {_key(name) for name in (*own, *catalogue_designations())}
         for key, price in self.prices.items():
-            if key in known:
+            if key in known or is_to_size(key):
                 continue
             near = nearest_names(price.designation, own) or nearest_names(
                 price.designation, catalogue_designations()
             )
             hint = "; the nearest are " + ", ".join(f"'{one}'" for one in near) if near else ""
             raise UsageError(
-                f"{self.path}, line {price.line}: {shown(price.designation)} is no part of the "
-                f"machine and in no catalogue{hint}."
+                f"{self.path}, line {price.line}: {shown(price.designation)} is no part of this "
+                f"machine or another, and in no catalogue{hint}."
             )
 
 

@@ -2,7 +2,7 @@
 
 Lengths come out short by the shrinkage s, holes and outsides off by what a coupon showed. In a file
 
-    hole      is (d - e_hole) / (1 - s)        e: measured less drawn, on the diameter
+    hole      is (d - e_hole) / (1 - s)        e: measured less (1 - s) drawn
     outside   is (d - e_outside) / (1 - s)
     height    is h / (1 - s)
 
@@ -53,7 +53,7 @@ class Compensation:
     shrinkage : float
         Share of every length.
     hole_error, outside_error : float
-        Of diameters, measured less drawn, m.
+        Of diameters, measured less what shrinkage alone leaves of those drawn, m.
     measured : bool
         Whether the design states any of them.
     """

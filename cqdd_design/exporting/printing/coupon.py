@@ -57,6 +57,16 @@ class Coupon:
     sizes: tuple[float, ...]
     left_out: tuple[float, ...]
 
+    @property
+    def mean_hole(self) -> float:
+        """Of the diameters of all bores as drawn, m."""
+        return float(np.mean(self.sizes) + np.mean(HOLE_OFFSETS))
+
+    @property
+    def mean_pin(self) -> float:
+        """Of the diameters of all pins as drawn, m."""
+        return float(np.mean(self.sizes) + np.mean(PIN_OFFSETS))
+
 
 def coupon_sizes(parts: Iterable[Part]) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """Diameters of the fits of printed parts that go on a coupon, and those that do not, m."""

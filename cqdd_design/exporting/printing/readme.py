@@ -97,15 +97,18 @@ def _coupon(design: Design, test: Coupon | None) -> Iterator[str]:
         left = ", ".join(f"{_MM * size:g}" for size in test.left_out)
         yield from _wrapped(f"Not on it, for their size or number: fits of {left} mm.")
     yield from _wrapped(
-        "Measure every bore and pin; the mean of measured less drawn goes into the design file. Or "
-        "try bearings and pins: where the bore drawn +20 takes what belongs into it, holes come "
-        "out 200 um small, hole_error is -200 um. The plate is drawn "
-        f"{_MM * test.length:.2f} mm long: shrinkage is 1 less measured over drawn.",
+        f"Measure the plate first, drawn {_MM * test.length:.2f} mm long: shrinkage is 1 less "
+        "measured over drawn. It takes its share of bores and pins too, which counts once: of "
+        f"bores, drawn {_MM * test.mean_hole:.3f} mm in the mean, and pins, drawn "
+        f"{_MM * test.mean_pin:.3f} mm, the errors are the mean of all as measured less "
+        "(1 - shrinkage) times that. Or try bearings and pins: where the bore drawn +20 takes what "
+        "belongs into it, holes come out 200 um small, hole_error is -200 um and shrinkage times "
+        "the diameter.",
     )
     yield from (
         "",
         "    [printing]",
-        '    hole_error = "-120 um"      # measured less drawn, on the diameter',
+        '    hole_error = "-120 um"      # measured less drawn and shrunk, on the diameter',
         '    outside_error = "60 um"',
         "    shrinkage = 0.003",
     )

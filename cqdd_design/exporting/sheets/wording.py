@@ -26,6 +26,7 @@ from cqdd_design.solids.features.kinds import (
     Seat,
     Shoulder,
     Undercut,
+    datum_cells,
 )
 
 if TYPE_CHECKING:
@@ -102,9 +103,9 @@ def seat_rows(seat: Seat) -> tuple[Row, ...]:
     if seat.cylindricity:
         cells.append(Frame("cylindricity", mm(seat.cylindricity)))
     if seat.position:
-        cells.append(Frame("position", f"{DIA}{mm(seat.position)}", tuple(seat.refers)))
+        cells.append(Frame("position", f"{DIA}{mm(seat.position)}", datum_cells(seat.refers)))
     elif seat.run_out and seat.refers:
-        cells.append(Frame("total run-out", mm(seat.run_out), tuple(seat.refers)))
+        cells.append(Frame("total run-out", mm(seat.run_out), datum_cells(seat.refers)))
     return (sign, tuple(cells)) if len(cells) > 1 else ((*sign, *cells),)
 
 
@@ -117,7 +118,7 @@ def shoulder_rows(shoulder: Shoulder) -> tuple[Row, ...]:
     """Surface, run-out, the fillet beside it and the datum that the face sets up."""
     cells: list[Cell] = [Surface(roughness(shoulder.roughness))]
     if shoulder.run_out and shoulder.refers:
-        cells.append(Frame("run-out", mm(shoulder.run_out), tuple(shoulder.refers)))
+        cells.append(Frame("run-out", mm(shoulder.run_out), datum_cells(shoulder.refers)))
     if shoulder.datum:
         cells.append(DatumMark(shoulder.datum))
     if shoulder.fillet:
@@ -173,7 +174,7 @@ def hole_rows(hole: Hole) -> tuple[Row, ...]:
         rows.append((Words(f"{lead}{DIA}{mm(hole.diameter)}"),))
     frame: list[Cell] = []
     if not isinstance(hole, PlainHole | Counterbore) and hole.position:
-        frame.append(Frame("position", f"{DIA}{mm(hole.position)}", tuple(hole.refers)))
+        frame.append(Frame("position", f"{DIA}{mm(hole.position)}", datum_cells(hole.refers)))
     if isinstance(hole, FittedHole):
         frame.append(Surface(roughness(hole.roughness)))
     if frame:

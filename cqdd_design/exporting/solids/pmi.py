@@ -18,7 +18,14 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 from cqdd_design.errors import CatalogError
 from cqdd_design.solids.cad import MM
 from cqdd_design.solids.features.holes import ClearanceHole, CutHole, FittedHole, TappedHole
-from cqdd_design.solids.features.kinds import ON_AXIS, AxialThread, CutProfile, Seat, Shoulder
+from cqdd_design.solids.features.kinds import (
+    ON_AXIS,
+    AxialThread,
+    CutProfile,
+    Seat,
+    Shoulder,
+    datum_cells,
+)
 
 if TYPE_CHECKING:
     from cqdd_design.solids.features.holes import Centre, Facing
@@ -54,7 +61,7 @@ class Zone(NamedTuple):
     round : bool
         Whether the zone is a cylinder about an axis.
     datums : tuple of str
-        Letters, in their order.
+        Letters, in their order, ``A-B`` of a common one.
     faces : tuple
         Of the solid.
     """
@@ -64,6 +71,11 @@ class Zone(NamedTuple):
     round: bool
     datums: tuple[str, ...]
     faces: tuple[Any, ...]
+
+    @property
+    def letters(self) -> Iterator[str]:
+        """Of the datums, those of common ones apart."""
+        return (letter for cell in self.datums for letter in cell.split("-"))
 
 
 class Datum(NamedTuple):
@@ -90,7 +102,7 @@ def stated_of(part: Part) -> Stated:
     solid = _Faces(part)
     datums = tuple(_datums(part, solid))
     letters = {one.letter for one in datums}
-    zones = (one for one in _zones(part, solid) if one.faces and letters.issuperset(one.datums))
+    zones = (one for one in _zones(part, solid) if one.faces and letters.issuperset(one.letters))
     return Stated(tuple(size for size in _sizes(part, solid) if size.faces), tuple(zones), datums)
 
 
@@ -178,7 +190,7 @@ def _zones(part: Part, solid: _Faces) -> Iterator[Zone]:
     for feature in part.features:
         if isinstance(feature, Seat):
             faces = _round(feature, solid)
-            refers = tuple(feature.refers)
+            refers = datum_cells(feature.refers)
             if feature.cylindricity:
                 yield Zone("cylindricity", MM * feature.cylindricity, False, (), faces)
             if feature.position:
@@ -187,16 +199,16 @@ def _zones(part: Part, solid: _Faces) -> Iterator[Zone]:
                 yield Zone("total run-out", MM * feature.run_out, False, refers, faces)
         elif isinstance(feature, Shoulder):
             if feature.run_out and feature.refers:
-                refers, faces = tuple(feature.refers), solid.planes(feature)
+                refers, faces = datum_cells(feature.refers), solid.planes(feature)
                 yield Zone("run-out", MM * feature.run_out, False, refers, faces)
         elif isinstance(feature, CutProfile):
             yield Zone(
-                "profile", MM * feature.zone, False, tuple(feature.refers),
+                "profile", MM * feature.zone, False, datum_cells(feature.refers),
                 solid.walls(inside=feature.inside),
             )  # fmt: skip
         elif isinstance(feature, _Placed) and feature.position:
             yield Zone(
-                "position", MM * feature.position, True, tuple(feature.refers),
+                "position", MM * feature.position, True, datum_cells(feature.refers),
                 _bored(feature, solid),
             )  # fmt: skip
 

@@ -115,8 +115,10 @@ class _Sheet:
             stated.SetTypeOfValue(forms.XCAFDimTolObjects_GeomToleranceTypeValue_Diameter)
         XCAFDoc_GeomTolerance.Set_s(label).SetObject(stated)
         self._tool.SetGeomTolerance(self._labels(zone.faces), label)
-        for place, letter in enumerate(zone.datums, start=1):
-            self._tool.SetDatumToGeomTol(self._datum(letter, place), label)
+        for place, cell in enumerate(zone.datums, start=1):
+            # Those that share a place are a common datum.
+            for letter in cell.split("-"):
+                self._tool.SetDatumToGeomTol(self._datum(letter, place), label)
 
     def _datum(self, letter: str, place: int) -> Any:
         """The label of a datum at its place in a frame."""

@@ -126,8 +126,8 @@ _LABELS = {
     "environment.ambient": Label("air round the actuator"),
     "environment.coldest": Label("coldest start"),
     "edm.profile_tolerance": Label("files follow the exact curve within"),
-    "printing.hole_error": Label("printed holes measured less drawn"),
-    "printing.outside_error": Label("printed outsides measured less drawn"),
+    "printing.hole_error": Label("printed holes measured less drawn and shrunk"),
+    "printing.outside_error": Label("printed outsides measured less drawn and shrunk"),
     "printing.shrinkage": Label("shrinkage of printed parts"),
 }
 

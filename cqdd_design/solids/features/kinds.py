@@ -7,13 +7,15 @@ chamfers, undercuts, the points of drills) is derived from it and stands nowhere
 Lengths are in metres, angles in radians, in the part's own frame with the part's axis along z.
 `facing` says which way a face looks, or from which side a hole is made: ``up`` is +z. Letters of
 datums are those of the part's drawing: `datum` is the letter that a feature sets up, `refers` the
-letters it is held to, in their order, such as ``AB``. Features are named as on a drawing, and no
-two of a part share a name.
+letters it is held to, in their order, such as ``AB``, or ``A-B`` of a datum that two features set
+up together (ISO 5459), as the axis of two journals. Features are named as on a drawing, and no two
+of a part share a name.
 """
 
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
@@ -21,6 +23,17 @@ from cqdd_design.catalog.fits import FitLimits, fit_limits
 from cqdd_design.solids.features.holes import Centre, Facing, FittedHole, Hole
 
 ON_AXIS: Centre = (0.0, 0.0)
+
+
+def datum_cells(refers: str) -> tuple[str, ...]:
+    """Cells of a tolerance frame that name datums, a common one in one cell (ISO 1101, ISO 5459).
+
+    Examples
+    --------
+    >>> datum_cells("AB"), datum_cells("A-BC"), datum_cells("")
+    (('A', 'B'), ('A-B', 'C'), ())
+    """
+    return tuple(re.findall("[A-Z](?:-[A-Z])*", refers))
 
 
 @dataclass(frozen=True)

@@ -38,7 +38,7 @@ def shaft_features(
     if pack.disc_count > 2:
         core = seat(
             "seat of the eccentric cam", 2.0 * shaft.shoulder_radius, pack.cam_top(1),
-            pack.cam_top(2), zones.PRESSED_CAM, ground=True, refers="AB",
+            pack.cam_top(2), zones.PRESSED_CAM, ground=True, refers="A-B",
         )  # fmt: skip
         how = _pressed_on(pack, position)
         found += [core, Joint("eccentric cam", "pressed", core.name, "eccentric cam", how)]
@@ -66,18 +66,18 @@ def journal_features(shaft: ShaftLayout) -> list[Feature]:
     bore, corner = bearing.bore_diameter, least_chamfer(bearing.bore_diameter)
     lower = seat(
         "lower journal and rotor seat", bore, shaft.bottom, shaft.lower_seat_top, zones.JOURNAL,
-        ground=True, datum="A", refers="AB",
+        ground=True, datum="A", refers="A-B",
     )  # fmt: skip
     upper = seat(
         "upper journal", bore, shaft.upper_seat_bottom, shaft.top, zones.JOURNAL,
-        ground=True, datum="B", refers="AB",
+        ground=True, datum="B", refers="A-B",
     )  # fmt: skip
     reach = min(bearing.width, lower.top - lower.bottom)
     ends = (
         shoulder("lower shoulder", shaft.lower_seat_top, 0.5 * bore, shaft.shoulder_radius, "down",
-                 lower, refers="AB", along=BEARING_FACE),
+                 lower, refers="A-B", along=BEARING_FACE),
         shoulder("upper shoulder", shaft.upper_seat_bottom, 0.5 * bore, shaft.shoulder_radius, "up",
-                 upper, refers="AB", along=BEARING_FACE),
+                 upper, refers="A-B", along=BEARING_FACE),
     )  # fmt: skip
     reliefs = (
         relief("undercut of the lower journal", lower, "down", corner, length=reach),
@@ -93,7 +93,7 @@ def lobe_features(
     position: float,
     *,
     collar: Facing | None,
-    refers: str = "AB",
+    refers: str = "A-B",
 ) -> list[Feature]:
     """A lobe, and the face of the collar beside it.
 
@@ -136,7 +136,7 @@ def _motor_end(shaft: ShaftLayout, motor: MotorEnd) -> list[Feature]:
     top = shaft.bottom + motor.magnet_height
     pocket = seat(
         "pocket of the encoder's magnet", 2.0 * motor.magnet_radius, shaft.bottom, top,
-        zones.MAGNET_POCKET, inside=True, refers="AB",
+        zones.MAGNET_POCKET, inside=True, refers="A-B",
     )  # fmt: skip
     bond = Joint("encoder magnet", "bonded", pocket.name, "encoder magnet", "bond in its pocket")
     return [bell, pocket, bond]

@@ -1,0 +1,77 @@
+"""The joint of a third disc's loose cam on the eccentric shaft, and the torque that it carries.
+
+A disc's force on its eccentric acts at the eccentric's axis, off the shaft's by the eccentricity:
+about the shaft's axis it is a torque, all of which goes through the cam's joint (static
+equilibrium of the cam; its bearing rolls).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cqdd_design.catalog.adhesives import joint_shear
+from cqdd_design.catalog.bearings import shaft_material
+from cqdd_design.catalog.fits import fit_limits
+from cqdd_design.catalog.materials import Material, find_material
+from cqdd_design.gearbox.pack_loads import PackLoads
+from cqdd_design.machine.machine import Machine
+from cqdd_design.machine.shaft import disc_heights
+from cqdd_design.solids.features import zones
+
+
+@dataclass(frozen=True)
+class LooseCam:
+    """A cam that is pressed and bonded on the shaft.
+
+    Attributes
+    ----------
+    diameter, length : float
+        Of the joint, m.
+    place : int
+        Of its disc in the loads of a pack.
+    material : Material
+        Of the cam, and of the shaft.
+    least_interference : float
+        Of its press fit by the zones that are drawn, m on the diameter; negative is play.
+    """
+
+    diameter: float
+    length: float
+    place: int
+    material: Material
+    least_interference: float
+
+    def torque(self, loads: PackLoads) -> float:
+        """Greatest torque about the shaft's axis in the joint over cases and crank angles, N m."""
+        return float(np.abs(loads.torque[:, :, self.place]).max())
+
+    def shear(self, torque: float) -> float:
+        """Mean shear stress of the joint under a torque (N m), Pa."""
+        return joint_shear(torque, self.diameter, self.length)
+
+
+def loose_cam(machine: Machine) -> LooseCam | None:
+    """The loose cam of a machine; None where every eccentric is one piece with the shaft.
+
+    Raises
+    ------
+    GeometryError
+        When the machine cannot be laid out.
+    CatalogError
+        When no zone is known for the diameter.
+    """
+    pack, shaft = machine.layout.pack, machine.layout.shaft
+    if pack.disc_count < 3:
+        return None
+    bottom, top, size = pack.cam_top(1), pack.cam_top(2), 2.0 * shaft.shoulder_radius
+    middles = disc_heights(pack)
+    hole, core = fit_limits(zones.CAM_BORE, size), fit_limits(zones.PRESSED_CAM, size)
+    return LooseCam(
+        diameter=size,
+        length=top - bottom,
+        place=int(np.argmax(middles)),
+        material=find_material(shaft_material(pack.cam.bearing)),
+        least_interference=core.lower - hole.upper,
+    )
