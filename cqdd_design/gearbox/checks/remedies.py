@@ -47,6 +47,12 @@ def lower_to(torque: float, which: str = "torque") -> str:
     return f"lower the {which} to {torque_words(torque)}"
 
 
+def lower_peak(torque: float, continuous: float) -> str:
+    """The same of the peak torque (N m), below which the continuous one (N m) has to stay."""
+    words = lower_to(torque)
+    return f"{words} (with it the continuous torque)" if 0.0 < torque < continuous else words
+
+
 def softer_contact(thickness: float, torque: float, pressure: float, limit: float) -> str:
     """Say what brings a Hertz pressure of the rigid law down to a limit: it grows with sqrt(T/b).
 
@@ -138,11 +144,14 @@ def stronger_capacity(state: GearboxState, torque: float, needed: float) -> str:
 
 
 def better_held(reducer: Reducer) -> list[str]:
-    """How to hold pins so that they bend less; nothing where they are held as well as can be."""
+    """How to hold pins so that they bend less; nothing where they are held as well as can be.
+
+    How much less is not known without the equilibrium of pins that are held so.
+    """
     if reducer.output_pins.support != "both":
-        return ["hold the pins at both ends (reducer.output_pins.support)"]
+        return ["hold the pins at both ends (reducer.output_pins.support), which helps"]
     if reducer.carrier.joint == "hinged":
-        return ["clamp them in the cap too (reducer.carrier.joint)"]
+        return ["clamp them in the cap too (reducer.carrier.joint), which helps"]
     return []
 
 
