@@ -74,6 +74,9 @@ def _cured(
     """Strength, fatigue and static safety, with torques at which those that fail would hold."""
     strength, fatigue = _strength(machine, peak, duty)
     static = _support_static(machine, peak, rotor)
+    if machine.stiff:
+        # Of a look in a search nobody reads remedies.
+        return strength, fatigue, static
 
     def at_peak(torque: float) -> tuple[Check, Check]:
         found = machine.under(peak=torque).peak_pack

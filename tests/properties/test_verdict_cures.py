@@ -16,6 +16,7 @@ from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.specimen import AS_DRAWN
 from cqdd_design.design import Design, load_design
 from cqdd_design.machine import Machine, resolve
+from cqdd_design.machine.body_analysis import judged_bodies
 from cqdd_design.machine.carrying import torque_limits
 from cqdd_design.machine.cures import torques_that_hold
 from cqdd_design.results import Check
@@ -157,3 +158,31 @@ def test_motor_peak_names_what_binds_and_the_value_that_lets_it(paper):
     told = float(re.search(r"motor\.current_limit .* to about ([\d.]+) A", short.remedy)[1])
     assert line(motor__current_limit=told, **weak).status == "pass"
     assert line(motor__current_limit=0.97 * told, **weak).status == "fail"
+
+
+@pytest.mark.parametrize(
+    ("changes", "names"),
+    [
+        (
+            {"reducer.disc_material": "7075-T6", "reducer.output_pins.circle_radius": 24.4e-3,
+             "requirements.peak_torque": 150.0, "requirements.continuous_torque": 90.0},
+            {"LIGAMENT-STRESS", "ROOT-STRESS"},
+        ),
+        (
+            {"reducer.disc_material": "POM (acetal)", "reducer.ring_material": "POM (acetal)",
+             "requirements.peak_torque": 25.0, "requirements.continuous_torque": 20.0},
+            {"PLASTIC-CREEP"},
+        ),
+    ],
+    ids=["stress", "creep"],
+)  # fmt: skip
+def test_discs_hold_the_torque_that_their_remedy_names(paper_design_file, changes, names):
+    design = load_design(paper_design_file.with_name("reference-s.toml")).replacing(changes)
+    machine = resolve(design)
+    lines = {one.id: one for one in judged_bodies(machine)[0] if one.status == "fail"}
+    assert set(lines) == names
+    for check_id, line in lines.items():
+        load, told = re.search(r"lower the (\w+) torque to ([\d.]+) N\*m", line.remedy).groups()
+        for share, status in ((1.0, "pass"), (1.04, "fail")):
+            at = machine.under(**{load: share * float(told)})
+            assert {o.id: o.status for o in judged_bodies(at)[0]}[check_id] == status, check_id
