@@ -17,6 +17,8 @@ Checks = Iterable[Check]
 
 _LOOKS = 14
 """Torques that are tried for a line; four to six do."""
+_FEW_LOOKS = 7
+"""The same where a look costs much."""
 _NEAR = 1e-3
 """Of a limit, how much may be left of it."""
 ROUGHLY = 0.02
@@ -69,16 +71,21 @@ def torques_that_hold(
 def _most(margin: Callable[[float], float], tried: Iterable[float], near: float) -> float:
     """The most torque whose margin is 1, starting from what has been tried."""
     known = {at: margin(at) for at in tuple(tried)}
-    for _ in range(_LOOKS):
+    in_a_row, looks = 0, _LOOKS if near < ROUGHLY else _FEW_LOOKS
+    for _ in range(looks):
         above = min((at for at, value in known.items() if value < 1.0), default=math.inf)
         below = max((at for at, value in known.items() if value >= 1.0 and at < above), default=0.0)
         if below and (known[below] < 1.0 + near or above / below < 1.0 + near):
             return below
         if math.isinf(above):
             at = _higher(known, below, near)
+        elif below and in_a_row > 1:
+            # Where a margin jumps, as where other screws are drawn, a line leads nowhere.
+            at = math.sqrt(below * above)
         else:
             at = _between(known, below, above, near) if below else _lower(known, above, near)
         known[at] = margin(at)
+        in_a_row = in_a_row + 1 if known[at] >= 1.0 else 0
     return max((at for at, value in known.items() if value >= 1.0), default=0.0)
 
 
