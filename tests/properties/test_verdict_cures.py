@@ -186,3 +186,16 @@ def test_discs_hold_the_torque_that_their_remedy_names(paper_design_file, change
         for share, status in ((1.0, "pass"), (1.04, "fail")):
             at = machine.under(**{load: share * float(told)})
             assert {o.id: o.status for o in judged_bodies(at)[0]}[check_id] == status, check_id
+
+
+def test_pins_that_break_at_once_are_told_with_the_stress_there_is(paper):
+    """Under 250 N m the mean stress passes the ultimate strength: no reversed stress is finite."""
+    duty = [{"torque": 250.0, "speed": 10.0, "share": 0.5},
+            {"torque": -60.0, "speed": 20.0, "share": 0.3}]  # fmt: skip
+    machine = resolve(paper.replacing({"requirements.duty": duty}))
+    line = _carried(machine)["PIN-BENDING-CONTINUOUS"]
+    assert line.status == "fail"
+    assert line.margin == pytest.approx(machine.life.parts[-1].reserve)
+    told = re.search(r"torques of the duty to ([\d.]+) % of", line.remedy)
+    lived = machine.under(duty_share=0.01 * float(told[1])).life
+    assert 1.0 <= lived.parts[-1].reserve < 1.1

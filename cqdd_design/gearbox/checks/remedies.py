@@ -22,6 +22,8 @@ _MOST_THICKENING = 2.0
 """A thicker disc or pin is offered as a remedy up to this many times what it was."""
 _AS_STIFF = 0.9
 """Of a part's modulus: what is softer is no harder part, though it would spread the contact."""
+_SPARE = 1.02
+"""Reserve of another material, since stiffer bodies share with fewer teeth and pins."""
 _UNMOVED = 0.05e-3
 """A circle that moves by less need not be told, m."""
 
@@ -104,7 +106,7 @@ def harder_parts(
         (one[0] + two[0], one, two)
         for one in offered[0]
         for two in offered[1]
-        if min(one[0], two[0]) >= pressure * math.sqrt(now / (one[2] + two[2]))
+        if min(one[0], two[0]) >= _SPARE * pressure * math.sqrt(now / (one[2] + two[2]))
     ]
     if not enough:
         most = rounded_up(pressure / _MEGA)

@@ -254,7 +254,11 @@ def _pin_bending(duty: _Duty) -> tuple[PartLife, list[NDArray[np.complex128]]]:
             fatigue.largest_factor(partial(one.damage, endurance, ultimate), hours)
             for one in fibres
         )
-    stress = swing if reverses else fatigue.goodman_pulsating(swing, ultimate)
+    if math.isinf(swing):
+        # A mean beyond the ultimate strength, which no reversed stress stands for.
+        stress = max(float(np.abs(one).max()) for one in stresses)
+    else:
+        stress = swing if reverses else fatigue.goodman_pulsating(swing, ultimate)
     rate = max(rates, default=0.0)
     part = _part(name, place, stress, limit, count, rate, reserve, float(duty.turns.sum()))
     return part, stresses
