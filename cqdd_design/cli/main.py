@@ -38,6 +38,7 @@ from cqdd_design.cli import (
     torque_train,
 )
 from cqdd_design.cli.colour import ERROR, with_coloured_start
+from cqdd_design.cli.number_words import number_refused
 from cqdd_design.cli.session import INTERRUPTED_WITH_RESULTS, command, print_result
 from cqdd_design.environment import PROJECT, missing_dependency
 from cqdd_design.errors import CqddError, UsageError, printable
@@ -228,10 +229,9 @@ def _end(
 
 
 def _usage_message(error: TyperException) -> str:
+    message = number_refused(error) or error.format_message()
     context = getattr(error, "ctx", None)
-    if context is None:
-        return error.format_message()
-    return f"{error.format_message()} (see `{context.command_path} --help`)"
+    return message if context is None else f"{message} (see `{context.command_path} --help`)"
 
 
 def _log_bug(arguments: Sequence[str]) -> str:

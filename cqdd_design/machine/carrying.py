@@ -2,25 +2,28 @@
 
 Pressures, pin forces and cam loads come from the contact equilibrium of perfect parts with the
 motor driving against friction, over the period and in both senses of torque; strengths are those
-of the checks. Where the equilibrium has no answer, the rigid law with its factor for uneven sharing
-stands in, and the limit says so. Of what a gearbox lasts only the cam bearing's basic life is asked
-here.
+of the checks. Where the equilibrium has no answer at the peak torque, the rigid law with its factor
+for uneven sharing stands in, and the limit says so. Over the duty, values and limits are those of
+the checks of what lasts its hours; without an answer there is none of them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
 from types import MappingProxyType
 from typing import Literal, NamedTuple
 
 from cqdd_design.errors import ContactError
 from cqdd_design.gearbox.bearing_life import load_for_life
 from cqdd_design.gearbox.checks.allowables import STATIC_SAFETY, UNEVEN_SHARING
+from cqdd_design.gearbox.checks.equilibrium import DUTY_MODEL, lasting_checks
 from cqdd_design.gearbox.checks.equilibrium import MODEL as EQUILIBRIUM
 from cqdd_design.machine.capacity import LoadedContacts
+from cqdd_design.machine.cures import torques_that_hold
 from cqdd_design.machine.machine import Machine
+from cqdd_design.results import Check
 
 RIGID = f"rigid law x {UNEVEN_SHARING:g}"
 _NEAR = 0.99
@@ -87,11 +90,11 @@ class TorqueLimit:
     title : str
         What is compared.
     asked : float
-        The torque that is required at this load, N m.
+        The torque that is required at this load, N m; of a duty its greatest.
     value, limit : float
         What the check compares, at `asked`, and what it allows, in `unit`.
     torque : float
-        At the output, where `limit` is reached, N m.
+        At the output, where `limit` is reached, N m; a duty's others go with its greatest.
     model : str
         What `value` and `torque` rest on.
     reached : bool
@@ -173,29 +176,74 @@ class Compared(NamedTuple):
 def torque_limits(machine: Machine, load: LoadName | None = None) -> tuple[TorqueLimit, ...]:
     """Torques at which a machine's gearbox reaches its limits, in the order of the checks.
 
-    Of one load, or of both. Limits whose strength the catalogue does not give are left out.
+    Of one load, or of both. Limits whose strength the catalogue does not give are left out, and
+    those of the duty where a case of it has no equilibrium.
 
     Raises
     ------
     GeometryError
         When disc, ring or holes cannot exist.
     """
-    return tuple(
-        _limits(machine, one.row.load)[one.check]
-        for one in compared_limits(machine)
-        if load in {None, one.row.load}
-    )
+    found = {
+        name: limit
+        for one in ("peak", "continuous")
+        if load in {None, one}
+        for name, limit in _limits(machine, one).items()
+    }
+    return tuple(found[name] for name in LIMITS if name in found)
 
 
 @lru_cache(maxsize=8)
 def _limits(machine: Machine, load: LoadName) -> dict[str, TorqueLimit]:
     """Limits of one load by their checks; a report asks for one load, then for both."""
+    if load == "continuous":
+        return _lasting_limits(machine)
     contacts = machine.loaded_contacts
+    return {one.check: _limit(machine, contacts, one) for one in _compared_at_peak(machine)}
+
+
+def _lasting_limits(machine: Machine) -> dict[str, TorqueLimit]:
+    """Limits over the duty, whose torques rise and fall together; none without an equilibrium."""
+
+    @cache
+    def at(share: float) -> dict[str, Check]:
+        lived = machine.under(duty_share=share).life
+        return {one.id: one for one in lasting_checks(machine.analysis, lived) if one.known}
+
+    try:
+        now = {name: one for name, one in at(1.0).items() if name in LIMITS and one.value}
+    except ContactError:
+        return {}
+    asked = max(abs(case.torque) for case in machine.life.duty)
+    shares = torques_that_hold(lambda share: at(share).values(), 1.0, now.values(), every=True)
     return {
-        one.check: _limit(machine, contacts, one)
-        for one in compared_limits(machine)
-        if one.row.load == load
+        name: _lasting_limit(machine, check, asked, shares[name], at) for name, check in now.items()
     }
+
+
+def _lasting_limit(
+    machine: Machine,
+    check: Check,
+    asked: float,
+    share: float,
+    at: Callable[[float], dict[str, Check]],
+) -> TorqueLimit:
+    """The limit of a check over the duty, that holds up to a share of its torques."""
+    value, limit = check.compared
+    title, unit = check.title, check.unit
+    if not machine.life.assumed:
+        title = title.replace("continuous torque", "over the duty")
+    if check.id == "BEARING-LIFE":
+        # As a load: hours go with its power.
+        cam, hours = machine.analysis.cam_bearing, machine.life.required_hours
+        title, unit = f"equivalent load for L10h = {hours:g} h of all cam bearings", "N"
+        dynamic = cam.bearing.dynamic_rating or 0.0
+        limit = float(load_for_life(dynamic, hours, machine.life.cam.speed, cam.exponent))
+        value = limit * check.margin ** (-1.0 / cam.exponent)
+    reached = share > 0.0 and at(share)[check.id].margin < 1.0 / _NEAR
+    return TorqueLimit(
+        check.id, title, asked, value, limit, unit, share * asked, DUTY_MODEL, reached
+    )
 
 
 def carried_torque(machine: Machine) -> CarriedTorque:
@@ -271,8 +319,7 @@ def compared_limits(machine: Machine) -> Iterator[Compared]:
 
 
 def _limit(machine: Machine, contacts: LoadedContacts, one: Compared) -> TorqueLimit:
-    row, requirements = LIMITS[one.check], machine.design.requirements
-    asked = requirements.peak_torque if row.load == "peak" else requirements.continuous_torque
+    row, asked = LIMITS[one.check], machine.design.requirements.peak_torque
     value, model, reached = one.value, RIGID, True
     torque = asked * (one.limit / one.value) ** (1.0 / row.power)
     allowed = one.limit / one.per_key

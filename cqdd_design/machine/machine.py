@@ -82,6 +82,8 @@ class Machine:
     stiff : bool
         Whether discs and ring count as rigid, which spares their finite elements, and losses are
         swept at few torques: a look at what the machine does.
+    duty_share : float
+        Of the torques of its duty, or of the continuous one, that `life` is of.
     """
 
     given: Design
@@ -90,6 +92,7 @@ class Machine:
     motor: Motor
     temperatures: PartTemperatures | None = None
     stiff: bool = False
+    duty_share: float = 1.0
 
     def __repr__(self) -> str:
         """The design, and what it leaves open that is chosen here."""
@@ -136,6 +139,26 @@ class Machine:
     def changed(self, changes: Mapping[str, Any]) -> Machine:
         """The machine with other values of some dotted keys, and the same bearing and motor."""
         return replace(self, design=self.design.replacing(changes))
+
+    def under(
+        self,
+        *,
+        peak: float | None = None,
+        continuous: float | None = None,
+        duty_share: float = 1.0,
+    ) -> Machine:
+        """The machine at other torques, N m, or at a share of the torques of its duty.
+
+        A continuous torque above the peak torque is lowered with it. Contacts are those of the
+        same parts, and not worked out again.
+        """
+        asked = self.design.requirements
+        most = asked.peak_torque if peak is None else peak
+        steady = min(asked.continuous_torque if continuous is None else continuous, most)
+        torques = {"requirements.peak_torque": most, "requirements.continuous_torque": steady}
+        other = replace(self.changed(torques), duty_share=duty_share)
+        vars(other).update(contact=self.contact, bodies=self.bodies)
+        return other
 
     @property
     def cooling(self) -> Cooling:
@@ -253,7 +276,7 @@ class Machine:
         """Over the duty of the requirements; ContactError where a case has no equilibrium."""
         from cqdd_design.gearbox.life import life
 
-        return life(self.design, self.contact)
+        return life(self.design, self.contact, share=self.duty_share)
 
     @cached_property
     def peak_pack(self) -> PackLoads:

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 
 from cqdd_design.catalog.materials import DESIGN_STRAIN, Material, find_material
 from cqdd_design.errors import CatalogError, ContactError, GeometryError
 from cqdd_design.gearbox.checks.allowables import SLIP_SAFETY
-from cqdd_design.gearbox.checks.remedies import torque_words
+from cqdd_design.gearbox.checks.equilibrium import lasting_checks, lower_duty
+from cqdd_design.gearbox.checks.remedies import lower_to
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.machine import Machine
+from cqdd_design.machine.cures import ROUGHLY, SEARCHED_CASES, torques_that_hold
 from cqdd_design.machine.held_stress import HeldStress, held_stresses
 from cqdd_design.machine.screws import ScrewJoint, screw_joints
 from cqdd_design.results import Check
 
-_METAL, _HELD = "take a metal", "continuous torque"
+_METAL = "take a metal"
 _EXTERNAL = ("external_moment", "external_axial", "external_radial")
 _MEGA = 1e6
 _ENDLESS = 1e3
@@ -32,16 +35,38 @@ def creep_lines(machine: Machine, lines: Iterable[Check]) -> tuple[Check, ...]:
     found: list[Check] = []
     pins = find_material(machine.design.reducer.output_pins.material)
     if pins.is_plastic:
-        bent = next((one for one in lines if one.id == "PIN-BENDING-CONTINUOUS"), None)
-        found.append(_pins(pins, bent, machine.design.requirements.continuous_torque))
+        found.append(_pins_cured(machine, pins, lines))
     housing = find_material(machine.design.housing.material)
     if housing.is_plastic:
-        found += [_housing(machine, housing), _screws(machine, housing)]
+        found += [_housing_cured(machine, housing), _screws(machine, housing)]
     return tuple(found)
 
 
-def _pins(plastic: Material, bent: Check | None, torque: float) -> Check:
+def _pins_cured(machine: Machine, plastic: Material, lines: Iterable[Check]) -> Check:
+    """With what of the duty's torques the pins would hold."""
+    line = _pins(plastic, lines)
+    # Of a plastic whose creep is not known a lower torque leaves that unknown.
+    if line.status != "fail" or plastic.creep_modulus is None:
+        return line
+
+    def at(share: float) -> tuple[Check]:
+        lived = machine.under(duty_share=share).life
+        return (_pins(plastic, lasting_checks(machine.analysis, lived)),)
+
+    shares: dict[str, float] = {}
+    try:
+        lived = machine.life
+    except ContactError:
+        return line
+    if len(lived.duty) <= SEARCHED_CASES:
+        shares = torques_that_hold(at, 1.0, (line,), near=ROUGHLY)
+    lower = lower_duty(lived, shares.get(line.id))
+    return replace(line, remedy=f"{line.remedy}, or {lower}")
+
+
+def _pins(plastic: Material, lines: Iterable[Check]) -> Check:
     name, limit = "PIN-CREEP", 100.0 * DESIGN_STRAIN
+    bent = next((one for one in lines if one.id == "PIN-BENDING-CONTINUOUS"), None)
     if bent is None or bent.value is None:
         return build_check(
             name, None, limit, "the bending of the pins is not known", "see PIN-BENDING-CONTINUOUS"
@@ -51,17 +76,31 @@ def _pins(plastic: Material, bent: Check | None, torque: float) -> Check:
     known = plastic.creep_modulus is not None or strain > DESIGN_STRAIN
     held = "after 1000 h at 23 degC" if plastic.creep_modulus else "at once; its creep is not known"
     told = f"{bent.value:.1f} MPa in pins of {plastic.name}: {100.0 * strain:.2g} % {held}"
-    less = ""
-    if strain > DESIGN_STRAIN:
-        less = f", or lower the {_HELD} to {torque_words(torque * DESIGN_STRAIN / strain)}"
     return build_check(
         name,
         100.0 * strain if known else None,
         limit,
         told,
-        f"{_METAL} for output_pins.material{less}",
+        f"{_METAL} for output_pins.material",
         basis=plastic.creep_source or f"modulus of {plastic.name}, without its creep",
     )
+
+
+def _housing_cured(machine: Machine, plastic: Material) -> Check:
+    """With the continuous torque at which the places would hold, where there is one."""
+    line, asked = _housing(machine, plastic), machine.design.requirements
+    if line.status != "fail" or plastic.creep_modulus is None:
+        return line
+    cures = torques_that_hold(
+        lambda torque: (_housing(machine.under(continuous=torque), plastic),),
+        asked.continuous_torque,
+        (line,),
+        near=ROUGHLY,
+    )
+    less = lower_to(cures[line.id], "continuous torque")
+    if not cures[line.id] and any(getattr(asked, one) for one in _EXTERNAL):
+        less = "lower the continuous torque and the external loads"
+    return replace(line, remedy=f"{line.remedy}, or {less}")
 
 
 def _housing(machine: Machine, plastic: Material) -> Check:
@@ -79,19 +118,13 @@ def _housing(machine: Machine, plastic: Material) -> Check:
     strain = first.stress / modulus
     known = plastic.creep_modulus is not None or strain > DESIGN_STRAIN
     held = "after 1000 h at 23 degC" if plastic.creep_modulus else "at once; its creep is not known"
-    torque, less = machine.design.requirements.continuous_torque, ""
-    if strain > DESIGN_STRAIN:
-        share = DESIGN_STRAIN / strain
-        less = f", or lower the {_HELD} to {torque_words(torque * share)}"
-        if any(getattr(machine.design.requirements, one) for one in _EXTERNAL):
-            less += " and the external loads with it"
     return build_check(
         name,
         100.0 * strain if known else None,
         limit,
         f"{_place(first)} ({first.told}) in {plastic.name}: {100.0 * strain:.2g} % {held}; "
         f"next {_place(second)}; {len(places)} places looked at",
-        f"{_METAL} for housing.material{less}"
+        f"{_METAL} for housing.material"
         if known
         else f"{_METAL} for housing.material, or a plastic whose creep the catalogue has "
         "(`cqdd-design catalog materials`)",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from cqdd_design.catalog.adhesives import ROTOR_COMPOUND, joint_shear
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.errors import CatalogError, ContactError, GeometryError
@@ -11,10 +13,11 @@ from cqdd_design.gearbox.checks.allowables import (
     bond_limit,
     dowel_limit_shear,
 )
-from cqdd_design.gearbox.checks.remedies import lower_torque
+from cqdd_design.gearbox.checks.remedies import lower_peak
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine
+from cqdd_design.machine.cures import ROUGHLY, torques_that_hold
 from cqdd_design.machine.dowels import LoadedDowels, loaded_dowels
 from cqdd_design.machine.temperatures import MachineTemperatures
 from cqdd_design.results import Check
@@ -47,14 +50,33 @@ def _dowels(machine: Machine) -> tuple[Check, ...]:
     if lacking:
         remedy = "raise ring.outer_diameter, or lower output_pins.diameter"
         return tuple(build_check(one, None, None, lacking, remedy) for one in _DOWELS)
-    torque = machine.design.requirements.peak_torque
+    asked, lines = machine.design.requirements, _judged(found)
+    cures = torques_that_hold(
+        lambda torque: _judged(loaded_dowels(machine.under(peak=torque))),
+        asked.peak_torque,
+        lines,
+        near=ROUGHLY,
+    )
+    return tuple(
+        replace(
+            line,
+            remedy=f"{line.remedy}; or {lower_peak(cures[line.id], asked.continuous_torque)}",
+        )
+        if line.id in cures
+        else line
+        for line in lines
+    )
+
+
+def _judged(found: tuple[LoadedDowels, ...]) -> tuple[Check, Check]:
+    """Both lines of some dowels."""
     shear, press = (
         [(one, one.stress.shear, dowel_limit_shear()) for one in found],
         [(one, one.stress.pressure, one.seat) for one in found],
     )
     return (
-        _dowel("DOWEL-SHEAR", shear, torque, "larger dowels ask for a thicker ring"),
-        _dowel("DOWEL-BEARING", press, torque, "take a stronger housing.material or a larger ring"),
+        _dowel("DOWEL-SHEAR", shear, "larger dowels ask for a thicker ring"),
+        _dowel("DOWEL-BEARING", press, "take a stronger housing.material or a larger ring"),
     )
 
 
@@ -109,9 +131,7 @@ def _lacking(machine: Machine) -> str:
     return ""
 
 
-def _dowel(
-    name: str, every: list[tuple[LoadedDowels, float, Allowable]], torque: float, cure: str
-) -> Check:
+def _dowel(name: str, every: list[tuple[LoadedDowels, float, Allowable]], cure: str) -> Check:
     """The line of the dowels with least reserve, the others beside it."""
     told = "; ".join(
         f"{one.place}: {one.size}, {value / _MEGA:.3g} of {limit.value / _MEGA:.3g} MPa under "
@@ -124,6 +144,6 @@ def _dowel(
         value / _MEGA,
         limit.value / _MEGA if limit.value else None,
         told,
-        f"{cure}; or {lower_torque(torque, limit.value / value)}",
+        cure,
         basis=limit.basis,
     )

@@ -18,14 +18,13 @@ from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.gearbox.contact.rubbing import ContactFriction
 from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 from cqdd_design.gearbox.film.plastics import rubbing_plastics, sliding_plastics
-from cqdd_design.gearbox.life import life
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine
+from cqdd_design.machine.cures import SEARCHED_CASES, torques_that_hold
 from cqdd_design.results import Check
 from cqdd_design.verdict.asked import asked_lines
 from cqdd_design.verdict.cam_line import cam_line
 from cqdd_design.verdict.creep_lines import creep_lines
-from cqdd_design.verdict.cures import torques_that_hold
 from cqdd_design.verdict.drawn import yield_line
 from cqdd_design.verdict.evidence import Evidence
 from cqdd_design.verdict.joint_lines import joint_lines
@@ -119,16 +118,13 @@ def _lasting(machine: Machine) -> tuple[Check, ...]:
     """Lines over the duty; ContactError where a case has no equilibrium."""
     state, lived = machine.analysis, machine.life
     found = lasting_checks(state, lived)
-    if not lived.assumed:
-        # A duty has as many torques as cases.
+    if len(lived.duty) > SEARCHED_CASES:
         return found
 
-    def at(torque: float) -> tuple[Check, ...]:
-        lowered = machine.design.replacing({"requirements.continuous_torque": torque})
-        return lasting_checks(state, life(lowered, machine.contact))
+    def at(share: float) -> tuple[Check, ...]:
+        return lasting_checks(state, machine.under(duty_share=share).life)
 
-    held = machine.design.requirements.continuous_torque
-    return lasting_checks(state, lived, torques_that_hold(at, held, found))
+    return lasting_checks(state, lived, torques_that_hold(at, 1.0, found))
 
 
 def _rubbing(machine: Machine) -> tuple[Check, ...]:

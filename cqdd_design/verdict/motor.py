@@ -13,6 +13,7 @@ from cqdd_design.actuator.operating import (
     DRIVER,
     PEAK,
     VOLTAGE,
+    Judgement,
     envelope_torque,
     held_torque,
     judge,
@@ -75,7 +76,7 @@ def motor_lines(
         return (*(_unknown(one, asked, why) for one in _LIMITS), *lines, *_bore(machine))
     peak, steady, *duty = demands(actuator, asked)
     lines += [
-        _peak(peak, motor, asked),
+        _peak(peak, actuator, motor, asked),
         # Under a duty its own heat decides, see THERMAL-RISE.
         *(() if duty else (_continuous(steady, actuator, asked, uncooled),)),
         _speed(actuator, asked),
@@ -110,7 +111,7 @@ def _data(motor: Motor) -> tuple[Check, ...]:
     return (build_check("MOTOR-DATA", None, count, told, GIVE, model=MODEL),)
 
 
-def _peak(demand: Demand, motor: Motor, asked: Requirements) -> Check:
+def _peak(demand: Demand, actuator: ActuatorParameters, motor: Motor, asked: Requirements) -> Check:
     most = demand.found.most
     binding = ", ".join(demand.found.binding) or "nothing"
     told = f"{most:.4g} N*m at rest, {demand.found.need.current:.3g} A for the peak torque; "
@@ -122,9 +123,8 @@ def _peak(demand: Demand, motor: Motor, asked: Requirements) -> Check:
         most,
         asked.peak_torque,
         f"{told}binding: {binding}",
-        f"{_lower('peak_torque', most)}raise motor.current_limit, and "
-        "requirements.current where it is stated, if the driver binds, or take a stronger motor "
-        "or more ratio",
+        f"{_lower('peak_torque', most)}{_raised([demand.found], actuator)}take a stronger motor or "
+        "more ratio",
         model=MODEL,
     )
 
@@ -162,16 +162,8 @@ def _speed(actuator: ActuatorParameters, asked: Requirements) -> Check:
     at = [speed / abs(actuator.gear.ratio) for speed in speeds]
     points = [judge(actuator, torque, speed, lasting=False, hot=True) for speed in at]
     binding = list(dict.fromkeys(name for point in points for name in point.binding))
-    needs = {
-        VOLTAGE: (max(point.need.voltage for point in points), drive.supply_voltage),
-        DRIVER: (max(point.need.current for point in points), drive.current_limit),
-    }
-    raised = [
-        _RAISED[name].format(rounded_up(needed))
-        for name, (needed, there) in needs.items()
-        if name in binding and needed < _MOST_RAISED * there
-    ]
-    cures = ["raise " + " and ".join(raised)] if raised and PEAK not in binding else []
+    raised = _raised(points, actuator).removesuffix(", or ")
+    cures = [raised] if raised else []
     if fastest > 0.0:
         cures.append(f"lower requirements.input_speed to {rounded_down(fastest * _RPM):g} rpm")
     if PEAK in binding or not cures:
@@ -185,6 +177,20 @@ def _speed(actuator: ActuatorParameters, asked: Requirements) -> Check:
         ", or ".join(cures),
         model=MODEL,
     )
+
+
+def _raised(points: list[Judgement], actuator: ActuatorParameters) -> str:
+    """What to raise to which values so that points are reached, in words; nothing where none do."""
+    drive, binding = actuator.drive, {name for point in points for name in point.binding}
+    needs = {
+        VOLTAGE: (max(point.need.voltage for point in points), drive.supply_voltage),
+        DRIVER: (max(point.need.current for point in points), drive.current_limit),
+    }
+    short = {name: needs[name] for name in _RAISED if name in binding}
+    if not short or PEAK in binding or any(a > _MOST_RAISED * b for a, b in short.values()):
+        return ""
+    words = (_RAISED[name].format(rounded_up(needed)) for name, (needed, _) in short.items())
+    return f"raise {' and '.join(words)}, or "
 
 
 def _lower(key: str, most: float) -> str:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from cqdd_design.errors import CatalogError, ContactError, GeometryError
 from cqdd_design.gearbox.checks.allowables import SLIP_SAFETY, THREAD_SAFETY, screw_limit
-from cqdd_design.gearbox.checks.remedies import lower_torque
+from cqdd_design.gearbox.checks.remedies import lower_peak
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine
+from cqdd_design.machine.cures import ROUGHLY, torques_that_hold
 from cqdd_design.machine.screws import ScrewJoint, screw_joints
 from cqdd_design.results import Check
 from cqdd_design.solids.tool_access import tool_access
@@ -30,10 +33,26 @@ def _loaded(machine: Machine) -> tuple[Check, ...]:
         return tuple(
             build_check(one, None, None, error.message, "see why it is not known") for one in _LINES
         )
-    return (_slip(every, machine.design.requirements.peak_torque), _preload(every), _thread(every))
+    return (_cured(machine, _slip(every)), _preload(every), _thread(every))
 
 
-def _slip(every: tuple[ScrewJoint, ...], torque: float) -> Check:
+def _cured(machine: Machine, slip: Check) -> Check:
+    """With the peak torque at which nothing slips, where there is one."""
+    asked = machine.design.requirements
+    cures = torques_that_hold(
+        lambda torque: (_slip(screw_joints(machine.under(peak=torque))),),
+        asked.peak_torque,
+        (slip,),
+        near=ROUGHLY,
+    )
+    torque = cures.get(slip.id, 0.0)
+    if not torque:
+        return slip
+    lower = lower_peak(torque, asked.continuous_torque)
+    return replace(slip, remedy=f"{slip.remedy}; or {lower}")
+
+
+def _slip(every: tuple[ScrewJoint, ...]) -> Check:
     loaded = [one for one in every if one.across > 0.0 or one.along > 0.0]
     worst = min(loaded, key=lambda one: one.slip_safety)
     told = "; ".join(
@@ -41,13 +60,12 @@ def _slip(every: tuple[ScrewJoint, ...], torque: float) -> Check:
         f"across and {one.along:.0f} N along each, safety {min(one.slip_safety, _ENDLESS):.3g}"
         for one in loaded
     )
-    share = worst.slip_safety / SLIP_SAFETY
     return build_check(
         "SCREW-SLIP",
         min(worst.slip_safety, _ENDLESS),
         SLIP_SAFETY,
         told,
-        f"{worst.place}: {worst.cure}" + (f"; or {lower_torque(torque, share)}" if share else ""),
+        f"{worst.place}: {worst.cure}",
     )
 
 

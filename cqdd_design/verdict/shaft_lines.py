@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -13,8 +14,8 @@ from cqdd_design.errors import CatalogError, ContactError, DesignError, Geometry
 from cqdd_design.gearbox.bearing_life import basic_rating_life_hours, life_exponent
 from cqdd_design.gearbox.cam_bearing import rolling_element
 from cqdd_design.gearbox.checks.allowables import STATIC_SAFETY, shaft_limit_peak
-from cqdd_design.gearbox.checks.equilibrium import DUTY_MODEL, ENDLESS
-from cqdd_design.gearbox.checks.remedies import lower_torque
+from cqdd_design.gearbox.checks.equilibrium import DUTY_MODEL, ENDLESS, lower_duty
+from cqdd_design.gearbox.checks.remedies import lower_peak
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.gearbox.life.cam import equivalent_load, set_life
 from cqdd_design.gearbox.output_bearing import OutputLoad, dynamic_load, static_load
@@ -23,6 +24,7 @@ from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine
 from cqdd_design.machine.carrier_bearing import bearing_for_loads
+from cqdd_design.machine.cures import ROUGHLY, SEARCHED_CASES, torques_that_hold
 from cqdd_design.machine.output_loads import output_loads
 from cqdd_design.machine.rotor_overhang import rotor_overhang
 from cqdd_design.machine.shaft_strength import (
@@ -52,8 +54,7 @@ def shaft_lines(machine: Machine) -> tuple[Check, ...]:
         peak, duty = machine.peak_pack, machine.life.pack
         rotor = _rotor(machine)
         return (
-            *_strength(machine, peak, duty),
-            _support_static(machine, peak, rotor),
+            *_cured(machine, peak, duty, rotor),
             _support_life(machine, duty, rotor),
             *_output(machine, peak, duty, rotor),
         )
@@ -67,13 +68,43 @@ _AT_PEAK = ("SHAFT-STRENGTH", "SUPPORT-STATIC", "OUTPUT-STATIC")
 _OVER_DUTY = ("SHAFT-FATIGUE", "SUPPORT-LIFE", "OUTPUT-LIFE")
 
 
+def _cured(
+    machine: Machine, peak: PackLoads, duty: PackLoads, rotor: _Rotor
+) -> tuple[Check, Check, Check]:
+    """Strength, fatigue and static safety, with torques at which those that fail would hold."""
+    strength, fatigue = _strength(machine, peak, duty)
+    static = _support_static(machine, peak, rotor)
+    if machine.stiff:
+        # Of a look in a search nobody reads remedies.
+        return strength, fatigue, static
+
+    def at_peak(torque: float) -> tuple[Check, Check]:
+        found = machine.under(peak=torque).peak_pack
+        return _strength(machine, found, duty)[0], _support_static(machine, found, rotor)
+
+    def over_duty(share: float) -> tuple[Check]:
+        return (_strength(machine, peak, machine.under(duty_share=share).life.pack)[1],)
+
+    asked, cases = machine.design.requirements, len(machine.life.duty)
+    cures = torques_that_hold(at_peak, asked.peak_torque, (strength, static), near=ROUGHLY)
+    lower = {name: lower_peak(torque, asked.continuous_torque) for name, torque in cures.items()}
+    if fatigue.status == "fail":
+        shares = {}
+        if cases <= SEARCHED_CASES:
+            shares = torques_that_hold(over_duty, 1.0, (fatigue,), near=ROUGHLY)
+        lower[fatigue.id] = lower_duty(machine.life, shares.get(fatigue.id))
+    with_torque = [
+        replace(one, remedy=f"{one.remedy}; or {lower[one.id]}") if one.id in lower else one
+        for one in (strength, fatigue, static)
+    ]
+    return with_torque[0], with_torque[1], with_torque[2]
+
+
 def _strength(machine: Machine, peak: PackLoads, duty: PackLoads) -> tuple[Check, Check]:
     asked, found = machine.design.requirements, shaft_strength(machine, peak, duty)
     allowed = shaft_limit_peak(found.material)
     static, lasting = found.static, found.lasting
-    share = allowed.value / static.static
-    enough = found.limit / lasting.reversed_amplitude if lasting.reversed_amplitude else math.inf
-    thicker = "a cam bearing with a larger bore, or less eccentricity, leaves a thicker shaft; or "
+    thicker = "a cam bearing with a larger bore, or less eccentricity, leaves a thicker shaft"
     return (
         build_check(
             "SHAFT-STRENGTH",
@@ -81,7 +112,7 @@ def _strength(machine: Machine, peak: PackLoads, duty: PackLoads) -> tuple[Check
             allowed.value / _MEGA if allowed.value else None,
             f"{static.static / _MEGA:.1f} MPa at the {static.step.place}, of "
             f"{2e3 * static.step.radius:.3g} mm, at {asked.peak_torque:g} N*m",
-            thicker + lower_torque(asked.peak_torque, share),
+            thicker,
             basis=allowed.basis,
         ),
         build_check(
@@ -91,8 +122,7 @@ def _strength(machine: Machine, peak: PackLoads, duty: PackLoads) -> tuple[Check
             f"{lasting.reversed_amplitude / _MEGA:.1f} MPa reversed at the {lasting.step.place}, "
             f"of {2e3 * lasting.step.radius:.3g} mm, notch factors {lasting.bending_factor:.2f} "
             f"in bending and {lasting.torsion_factor:.2f} in torsion",
-            f"{thicker}lower the continuous torque to about "
-            f"{asked.continuous_torque * min(enough, 1.0):.3g} N*m",
+            thicker,
             basis=found.basis,
             model=DUTY_MODEL,
         ),
@@ -133,15 +163,13 @@ def _support_static(machine: Machine, peak: PackLoads, rotor: _Rotor) -> Check:
             "leave room for a bearing (a wider cam bearing)",
         )  # fmt: skip
     safety = seat.static_rating / most
-    # Only the discs' forces are in proportion to the torque.
-    share = float(((seat.static_rating / STATIC_SAFETY - rotor.on_bearings) / discs).min())
     return build_check(
         "SUPPORT-STATIC",
         safety,
         STATIC_SAFETY,
         f"{seat.designation}: {seat.static_rating:.0f} N/{most:.1f} N = {safety:.3f} at "
         f"{asked.peak_torque:g} N*m, {rotor.told(int(both.argmax()))}",
-        f"{_WIDER}; or {lower_torque(asked.peak_torque, share)}" if share > 0.0 else _WIDER,
+        _WIDER,
     )
 
 

@@ -438,3 +438,20 @@ def test_a_missing_example_is_told_how_it_is_written(cqdd):
     assert done.code == 2
     told = " ".join(done.err.split())
     assert "there is no file designs/printed-13.toml; `cqdd-design new --example printed-13" in told
+
+
+@pytest.mark.parametrize(
+    ("option", "given", "said"),
+    [
+        ("--samples", "0", "a whole number from 1 to 10000000, not '0'; the nearest is 1 "),
+        ("--samples", "x", "a whole number from 1 to 10000000, not 'x' "),
+        ("--samples", "2.7", "a whole number from 1 to 10000000, not '2.7'; the nearest is 3 "),
+        ("--samples", "1e9", "from 1 to 10000000, not '1e9'; the nearest is 10000000 "),
+        ("--seed", "-1", "not '-1'; the nearest is 0 "),
+    ],
+)
+def test_a_number_that_an_option_does_not_take(cqdd, paper_design_file, option, given, said):
+    done = cqdd("tolerance", paper_design_file, option, given)
+    assert done.code == 2
+    assert done.err.startswith(f"cqdd-design: {option} takes ")
+    assert said in done.err

@@ -229,6 +229,12 @@ REMEDIES = [
         "mm",
     ),
     (
+        {"reducer.output_pins.circle_radius": "25.1 mm"},
+        "GEO-LIGAMENT-PROFILE",
+        "reducer.output_pins.circle_radius",
+        "mm",
+    ),
+    (
         {"reducer.output_pins.hole_clearance": "4 um"},
         "FIT-PIN-HOLE",
         "reducer.output_pins.hole_clearance",

@@ -18,7 +18,6 @@ from cqdd_design.catalog.threads import coarse_thread
 from cqdd_design.catalog.tightening import Clamping, preload_at_yield
 from cqdd_design.design import load_design
 from cqdd_design.gearbox.checks.allowables import bond_limit
-from cqdd_design.gearbox.checks.remedies import torque_words
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.dowels import loaded_dowels, ring_torque
@@ -320,10 +319,9 @@ def test_plastic_pins_are_held_to_the_strain_of_their_bending(machine: Machine) 
     pom = machine.changed({"reducer.output_pins.material": "POM (acetal)"})
     assert creep_of(pom, 6.5)["PIN-CREEP"].value == pytest.approx(0.5)
     assert creep_of(pom, 6.5)["PIN-CREEP"].status == "pass"
-    half = torque_words(0.5 * machine.design.requirements.continuous_torque)
     failed = creep_of(pom, 26.0)["PIN-CREEP"]
     assert (failed.status, failed.value) == ("fail", pytest.approx(2.0))
-    assert half in failed.remedy
+    assert "take a metal" in failed.remedy
     assert creep_of(pom)["PIN-CREEP"].status == "unknown"
     # 3.5 GPa at once, and nothing known of later.
     pla = machine.changed({"reducer.output_pins.material": "PLA"})

@@ -7,6 +7,7 @@ import pytest
 
 from cqdd_design.design import load_design
 from cqdd_design.errors import UsageError
+from cqdd_design.gearbox.checks.equilibrium import lasting_checks
 from cqdd_design.machine import resolve
 from cqdd_design.machine.capacity import LoadedContacts
 from cqdd_design.machine.carrying import EQUILIBRIUM, RIGID, torque_limits
@@ -41,8 +42,8 @@ def compared(papers):
 def test_at_its_capacity_a_limit_is_just_met(papers):
     """Every capacity, found from one torque, is where the equilibrium itself meets the limit."""
     contacts = LoadedContacts(papers.contact)
-    solved = [one for one in torque_limits(papers) if one.model == EQUILIBRIUM]
-    assert len(solved) > 6
+    solved = [one for one in torque_limits(papers, "peak") if one.model == EQUILIBRIUM]
+    assert len(solved) > 5
     for limit in solved:
         asked, found = (
             contacts.greatest(torque)[limit.row.key] for torque in (limit.asked, limit.torque)
@@ -68,7 +69,27 @@ def test_values_are_those_of_analyse(papers, limits):
     per_newton = rigid.output_pins.shear_stress_peak / rigid.rigid_peak.output_pin_force / 1e6
     expected = per_newton * contact["output_pin_force_max_N"]
     assert shear.value == pytest.approx(expected, rel=1e-9)
-    assert {one.model for one in found.values()} == {EQUILIBRIUM}
+    assert {one.model for one in limits if one.load == "peak"} == {EQUILIBRIUM}
+
+
+@pytest.mark.parametrize("changes", [{}, {"requirements.duty": [
+    {"torque": 60.0, "speed": 10.0, "share": 0.5}, {"torque": -20.0, "speed": 20.0, "share": 0.5},
+]}], ids=["continuous torque", "duty"])  # fmt: skip
+def test_over_the_duty_a_limit_is_that_of_its_check_and_held_up_to_its_torque(papers, changes):
+    """The knee of a fatigue limit is what lasts for ever, which nothing asks for."""
+    machine = resolve(PAPER.replacing(changes)) if changes else papers
+    checks = {one.id: one for one in lasting_checks(machine.analysis, machine.life)}
+    found = torque_limits(machine, "continuous")
+    assert len(found) == 4
+    for limit in found:
+        check = checks[limit.check]
+        if limit.check != "BEARING-LIFE":
+            assert (limit.value, limit.limit) == check.compared
+        assert (limit.torque >= limit.asked) == (check.status == "pass")
+        for more, status in ((0.999, "pass"), (1.02, "fail")):
+            lived = machine.under(duty_share=more * limit.torque / limit.asked).life
+            at = {one.id: one for one in lasting_checks(machine.analysis, lived)}
+            assert at[limit.check].status == status, limit.check
 
 
 @pytest.mark.deep

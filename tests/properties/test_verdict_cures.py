@@ -12,12 +12,19 @@ from dataclasses import replace
 
 import pytest
 
+from cqdd_design.actuator.build import actuator_parameters
+from cqdd_design.actuator.specimen import AS_DRAWN
 from cqdd_design.design import Design, load_design
-from cqdd_design.machine import resolve
+from cqdd_design.machine import Machine, resolve
+from cqdd_design.machine.body_analysis import judged_bodies
 from cqdd_design.machine.carrying import torque_limits
+from cqdd_design.machine.cures import torques_that_hold
 from cqdd_design.results import Check
-from cqdd_design.verdict.cures import torques_that_hold
+from cqdd_design.verdict.creep_lines import creep_lines
 from cqdd_design.verdict.lines import _carried
+from cqdd_design.verdict.motor import motor_lines
+from cqdd_design.verdict.screw_lines import screw_lines
+from cqdd_design.verdict.shaft_lines import shaft_lines
 
 _LOWER = re.compile(r"lower the (continuous )?torque to ([\d.]+) N\*m")
 
@@ -63,8 +70,36 @@ def test_a_duty_has_no_continuous_torque_to_lower(paper):
     lines = _carried(resolve(paper.replacing({"requirements.duty": duty})))
     for check_id in ("CONTACT-RING-CONTINUOUS", "PIN-BENDING-CONTINUOUS", "BEARING-LIFE"):
         assert lines[check_id].status == "fail"
-        assert "lower the torques of the duty" in lines[check_id].remedy
         assert "continuous torque" not in lines[check_id].remedy
+        told = re.search(r"torques of the duty to ([\d.]+) % of", lines[check_id].remedy)
+        for more, status in ((1.0, "pass"), (1.03, "fail")):
+            duty[0]["torque"] = 0.4 * float(told[1]) * more
+            lowered = _carried(resolve(paper.replacing({"requirements.duty": duty})))
+            assert lowered[check_id].status == status, more
+
+
+def test_lines_of_shaft_and_screws_hold_at_the_torque_that_they_name(paper):
+    """Forces on the shaft are not in proportion to the torque, nor is the rotor's weight."""
+    lines = (*shaft_lines(resolve(paper)), *screw_lines(resolve(paper)))
+    failing = {one.id: one.remedy for one in lines if _LOWER.search(one.remedy)}
+    assert set(failing) == {"SUPPORT-STATIC", "SCREW-SLIP"}
+    for check_id, remedy in failing.items():
+        torque = float(_LOWER.search(remedy)[2])
+        for share, status in ((1.0, "pass"), (1.05, "fail")):
+            changes = {"requirements.peak_torque": share * torque,
+                       "requirements.continuous_torque": min(40.0, share * torque)}  # fmt: skip
+            machine = resolve(paper.replacing(changes))
+            told = {one.id: one for one in (*shaft_lines(machine), *screw_lines(machine))}
+            assert told[check_id].status == status, (check_id, share)
+
+
+def test_shaft_that_tires_under_a_duty_speaks_of_the_duty(paper):
+    duty = [{"torque": 250.0, "speed": 13.0, "share": 1.0}]
+    machine = resolve(paper.replacing({"requirements.duty": duty}))
+    line = next(one for one in shaft_lines(machine) if one.id == "SHAFT-FATIGUE")
+    assert line.status == "fail"
+    assert "lower the torques of the duty to " in line.remedy
+    assert "continuous torque" not in line.remedy
 
 
 def _line(of: Callable[[float], float], line: Check) -> Callable[[float], tuple[Check, ...]]:
@@ -84,3 +119,83 @@ def test_a_power_law_is_followed_to_its_limit(failing, power):
     at = _line(lambda torque: (torque / 7.0) ** power, line)
     (found,) = torques_that_hold(at, 120.0, at(120.0)).values()
     assert 7.0 * (1.0 - 2e-3) ** (1.0 / power) <= found <= 7.0
+
+
+@pytest.mark.parametrize("part", ["pins", "housing"])
+def test_plastics_hold_the_torque_that_their_creep_names(paper_design_file, part):
+    design = load_design(paper_design_file.with_name("reference-s.toml"))
+    key = {"pins": "reducer.output_pins.material", "housing": "housing.material"}[part]
+    torques = {"requirements.peak_torque": 6.0, "requirements.continuous_torque": 3.0}
+    weak = design.replacing({key: "POM (acetal)", **torques})
+
+    def creep(machine: Machine) -> dict[str, Check]:
+        return {one.id: one for one in creep_lines(machine, _carried(machine).values())}
+
+    name = {"pins": "PIN-CREEP", "housing": "HOUSING-CREEP"}[part]
+    line = creep(resolve(weak))[name]
+    assert line.status == "fail"
+    told = float(_LOWER.search(line.remedy)[2])
+    for share, status in ((1.0, "pass"), (1.04, "fail")):
+        lowered = resolve(weak.replacing({"requirements.continuous_torque": share * told}))
+        assert creep(lowered)[name].status == status, share
+
+
+def test_motor_peak_names_what_binds_and_the_value_that_lets_it(paper):
+    """What the driver lacks is a current; a motor at its own peak torque is cured by no driver."""
+
+    def line(**changes: float) -> Check:
+        design = paper.replacing({key.replace("__", "."): value for key, value in changes.items()})
+        machine = resolve(design)
+        actuator = actuator_parameters(machine, AS_DRAWN)
+        return next(o for o in motor_lines(machine, actuator, "") if o.id == "MOTOR-PEAK")
+
+    beyond = line()
+    assert beyond.status == "fail"
+    assert "current_limit" not in beyond.remedy
+    weak = {"requirements__peak_torque": 40.0, "requirements__continuous_torque": 10.0}
+    short = line(motor__current_limit=20.0, **weak)
+    assert short.status == "fail"
+    told = float(re.search(r"motor\.current_limit .* to about ([\d.]+) A", short.remedy)[1])
+    assert line(motor__current_limit=told, **weak).status == "pass"
+    assert line(motor__current_limit=0.97 * told, **weak).status == "fail"
+
+
+@pytest.mark.parametrize(
+    ("changes", "names"),
+    [
+        (
+            {"reducer.disc_material": "7075-T6", "reducer.output_pins.circle_radius": 24.4e-3,
+             "requirements.peak_torque": 150.0, "requirements.continuous_torque": 90.0},
+            {"LIGAMENT-STRESS", "ROOT-STRESS"},
+        ),
+        (
+            {"reducer.disc_material": "POM (acetal)", "reducer.ring_material": "POM (acetal)",
+             "requirements.peak_torque": 25.0, "requirements.continuous_torque": 20.0},
+            {"PLASTIC-CREEP"},
+        ),
+    ],
+    ids=["stress", "creep"],
+)  # fmt: skip
+def test_discs_hold_the_torque_that_their_remedy_names(paper_design_file, changes, names):
+    design = load_design(paper_design_file.with_name("reference-s.toml")).replacing(changes)
+    machine = resolve(design)
+    lines = {one.id: one for one in judged_bodies(machine)[0] if one.status == "fail"}
+    assert set(lines) == names
+    for check_id, line in lines.items():
+        load, told = re.search(r"lower the (\w+) torque to ([\d.]+) N\*m", line.remedy).groups()
+        for share, status in ((1.0, "pass"), (1.04, "fail")):
+            at = machine.under(**{load: share * float(told)})
+            assert {o.id: o.status for o in judged_bodies(at)[0]}[check_id] == status, check_id
+
+
+def test_pins_that_break_at_once_are_told_with_the_stress_there_is(paper):
+    """Under 250 N m the mean stress passes the ultimate strength: no reversed stress is finite."""
+    duty = [{"torque": 250.0, "speed": 10.0, "share": 0.5},
+            {"torque": -60.0, "speed": 20.0, "share": 0.3}]  # fmt: skip
+    machine = resolve(paper.replacing({"requirements.duty": duty}))
+    line = _carried(machine)["PIN-BENDING-CONTINUOUS"]
+    assert line.status == "fail"
+    assert line.margin == pytest.approx(machine.life.parts[-1].reserve)
+    told = re.search(r"torques of the duty to ([\d.]+) % of", line.remedy)
+    lived = machine.under(duty_share=0.01 * float(told[1])).life
+    assert 1.0 <= lived.parts[-1].reserve < 1.1

@@ -7,9 +7,9 @@ from cqdd_design.design import Design
 from cqdd_design.gearbox.bodies.strength import LIGAMENTS, BodyStrength, Swing
 from cqdd_design.gearbox.bodies.stress import Region
 from cqdd_design.gearbox.checks.allowables import Allowable, edge_limit_fatigue, edge_limit_peak
-from cqdd_design.gearbox.checks.remedies import torque_words
+from cqdd_design.gearbox.checks.equilibrium import NO_CURES, Cures
+from cqdd_design.gearbox.checks.remedies import lower_to
 from cqdd_design.gearbox.checks.state import build_check
-from cqdd_design.geometry.limits import rounded_up
 from cqdd_design.results import Check
 
 _MEGA = 1e6
@@ -20,26 +20,31 @@ _PARTS: tuple[tuple[str, tuple[Region, ...], str], ...] = (
 )
 
 
-def body_checks(design: Design, strength: BodyStrength) -> tuple[Check, ...]:
+def body_checks(
+    design: Design, strength: BodyStrength, cures: Cures = NO_CURES
+) -> tuple[Check, ...]:
     """Stress against yield at the peak torque, and over a turn against fatigue; creep of plastics.
 
     Parameters
     ----------
     strength : BodyStrength
         At the torques of the requirements.
+    cures : mapping
+        Torques at which lines that fail would hold, N m, by check: peak ones for ``-STRESS``,
+        continuous ones else. Remedies of others name none.
     """
     found = [
         check
         for part, regions, first in _PARTS
         for check in (
-            _static(part, regions, first, design, strength),
-            _fatigue(part, regions, first, design, strength),
+            _static(part, regions, first, design, strength, cures),
+            _fatigue(part, regions, first, design, strength, cures),
         )
     ]
-    return (*found, *_creep(design, strength))
+    return (*found, *_creep(design, strength, cures))
 
 
-def _creep(design: Design, strength: BodyStrength) -> tuple[Check, ...]:
+def _creep(design: Design, strength: BodyStrength, cures: Cures) -> tuple[Check, ...]:
     """Strain of discs and ring of plastic that the continuous torque holds; none of metal.
 
     Without a modulus of creep the strain that the load makes at once still tells what is too much.
@@ -68,8 +73,9 @@ def _creep(design: Design, strength: BodyStrength) -> tuple[Check, ...]:
     if material.creep_modulus is None:
         told += "; its creep is not known, of printed plastics least of all"
     less = ""
-    if strain > DESIGN_STRAIN:
-        less = f"lower it to about {torque_words(torque * DESIGN_STRAIN / strain)}, "
+    # Of a plastic whose creep is not known a lower torque leaves that unknown.
+    if material.creep_modulus is not None:
+        less = f"{_lower('PLASTIC-CREEP', 'continuous', cures)}, "
     return (
         build_check(
             "PLASTIC-CREEP",
@@ -84,7 +90,12 @@ def _creep(design: Design, strength: BodyStrength) -> tuple[Check, ...]:
 
 
 def _static(
-    part: str, regions: tuple[Region, ...], first: str, design: Design, strength: BodyStrength
+    part: str,
+    regions: tuple[Region, ...],
+    first: str,
+    design: Design,
+    strength: BodyStrength,
+    cures: Cures,
 ) -> Check:
     peak, material = strength.peak(*regions), _material(part, design)
     allowed, stress = edge_limit_peak(material), abs(peak.stress)
@@ -97,13 +108,18 @@ def _static(
         _known(allowed),
         f"{stress / _MEGA:.1f} MPa in {kind} at disc {peak.disc + 1}{where}, "
         f"b {design.reducer.disc_thickness * 1e3:g} mm, at {peak.torque:g} N*m",
-        _remedy(first, design, stress, allowed.value, "peak", design.requirements.peak_torque),
+        _remedy(first, f"{part}-STRESS", allowed, "peak", cures),
         basis=allowed.basis,
     )
 
 
 def _fatigue(
-    part: str, regions: tuple[Region, ...], first: str, design: Design, strength: BodyStrength
+    part: str,
+    regions: tuple[Region, ...],
+    first: str,
+    design: Design,
+    strength: BodyStrength,
+    cures: Cures,
 ) -> Check:
     swing, material = strength.swing(*regions), _material(part, design)
     allowed, stress = edge_limit_fatigue(material), swing.reversed_amplitude
@@ -113,14 +129,7 @@ def _fatigue(
         stress / _MEGA,
         _known(allowed),
         _cycle_words(swing, material, design.requirements.continuous_torque),
-        _remedy(
-            first,
-            design,
-            stress,
-            allowed.value,
-            "continuous",
-            design.requirements.continuous_torque,
-        ),
+        _remedy(first, f"{part}-FATIGUE", allowed, "continuous", cures),
         basis=allowed.basis,
     )
 
@@ -150,14 +159,15 @@ def _material(part: str, design: Design) -> Material:
     return find_material(reducer.ring_material if part == "RING" else reducer.disc_material)
 
 
-def _remedy(
-    first: str, design: Design, stress: float, limit: float, load: str, torque: float
-) -> str:
-    """What lowers a stress, which goes with torque over thickness."""
-    if limit <= 0.0:
+def _remedy(first: str, check_id: str, allowed: Allowable, load: str, cures: Cures) -> str:
+    """What lowers a stress; how thick a disc, which shares otherwise, would have to be is open."""
+    if allowed.value <= 0.0:
         return "choose a material whose strength the catalogue has"
-    thickness = rounded_up(1e3 * design.reducer.disc_thickness * stress / limit)
-    return (
-        f"{first}raise disc_thickness to about {thickness:g} mm, or lower the {load} torque to "
-        f"about {torque_words(torque * limit / stress)}"
-    )
+    return f"{first}raise disc_thickness, or {_lower(check_id, load, cures)}"
+
+
+def _lower(check_id: str, load: str, cures: Cures) -> str:
+    """How far to lower a torque, in words."""
+    if check_id not in cures:
+        return f"lower the {load} torque"
+    return lower_to(cures[check_id], f"{load} torque")

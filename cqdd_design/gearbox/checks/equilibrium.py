@@ -22,6 +22,7 @@ from cqdd_design.gearbox.checks.remedies import (
     MaterialRule,
     better_held,
     harder_parts,
+    lower_peak,
     lower_to,
     stronger_pins,
 )
@@ -30,7 +31,7 @@ from cqdd_design.gearbox.life import LifeResult
 from cqdd_design.gearbox.life.result import PartLife
 from cqdd_design.gearbox.life.runners import RunnerLife
 from cqdd_design.gearbox.pin_beam import HELD
-from cqdd_design.geometry.limits import rounded_up
+from cqdd_design.geometry.limits import rounded_down, rounded_up
 from cqdd_design.results import Check
 
 MODEL = "contact equilibrium of perfect parts, driving with friction"
@@ -38,9 +39,9 @@ DUTY_MODEL = f"fatigue over the duty by the {MODEL}"
 ENDLESS = 1e9
 """Hours told of what does not wear out or never turns."""
 Cures = Mapping[str, float]
-"""Torques at which failing lines hold, N m, by check: those of the peak for lines of the peak,
-continuous ones for lines of the duty; 0 where none does. A line without one is told by proportion,
-which misses where fewer teeth share less torque."""
+"""What makes failing lines hold, by check: peak torques, N m, for lines of the peak, shares of the
+duty's torques for lines of the duty; 0 where nothing does. A line without one is told by
+proportion, which misses where fewer teeth share less torque."""
 NO_CURES: Cures = MappingProxyType({})
 _MEGA = 1e6
 _RING_SPREAD = "raise ring_pitch_radius or disc_count"
@@ -102,17 +103,29 @@ def lasting_checks(
     )
 
 
-def _lower_peak(check_id: str, torque: float, share: float, cures: Cures) -> str:
+def _lower_peak(
+    check_id: str, state: GearboxState, torque: float, share: float, cures: Cures
+) -> str:
     """How far to lower the peak torque (N m) of which a line bears a share."""
-    return lower_to(cures.get(check_id, torque * share))
+    lasting = state.design.requirements.continuous_torque
+    return lower_peak(cures.get(check_id, torque * share), lasting)
 
 
 def _lower_duty(check_id: str, life: LifeResult, share: float, cures: Cures) -> str:
     """The same of the continuous torque; of a duty its torques are meant."""
-    if not life.assumed:
-        return "lower the torques of the duty"
-    torque = cures.get(check_id, life.duty[0].torque * share)
-    return lower_to(torque, "continuous torque")
+    return lower_duty(life, cures.get(check_id, share if life.assumed else None))
+
+
+def lower_duty(life: LifeResult, share: float | None) -> str:
+    """What to do where a line holds up to a share of the duty's torques; None where not known."""
+    if life.assumed and share is not None:
+        return lower_to(share * life.duty[0].torque, "continuous torque")
+    whose = "continuous torque" if life.assumed else "torques of the duty"
+    if share is None:
+        return f"lower the {whose}"
+    if share <= 0.0:
+        return f"no {whose} are low enough"
+    return f"lower the {whose} to {rounded_down(100.0 * share):g} % of what they are"
 
 
 def _limited(
@@ -146,7 +159,9 @@ def _pressures(state: GearboxState, loads: PeakLoads, cures: Cures) -> tuple[Che
             allowed,
             f"{pressure / _MEGA:.1f} MPa (F up to {force:.1f} N a disc, b {thickness * 1e3:g} mm) "
             f"at {loads.torque:g} N*m",
-            _lower_peak(check_id, loads.torque, (allowed.value / max(pressure, 1.0)) ** 2, cures)
+            _lower_peak(
+                check_id, state, loads.torque, (allowed.value / max(pressure, 1.0)) ** 2, cures
+            )
             + ", or "
             + harder_parts({"disc": disc, part: other}, rule, pressure, spread),
         )
@@ -186,7 +201,7 @@ def _pins(state: GearboxState, loads: PeakLoads, cures: Cures) -> tuple[Check, .
                 state,
                 stress,
                 (rule, allowed),
-                _lower_peak(check_id, loads.torque, allowed.value / max(stress, 1.0), cures),
+                _lower_peak(check_id, state, loads.torque, allowed.value / max(stress, 1.0), cures),
                 power,
             ),
         )
@@ -223,12 +238,12 @@ def _statics(state: GearboxState, loads: PeakLoads, cures: Cures) -> tuple[Check
     if state.rollers is not None:
         seats.append(("ROLLER-STATIC", state.rollers, loads.ring_force, "larger ring pins"))
     return (
-        *(_static(loads.torque, *seat, cures) for seat in seats),
+        *(_static(state, loads.torque, *seat, cures) for seat in seats),
         *_ring_pin(
             state,
             "PEAK",
             loads.ring_force,
-            lambda check_id, share: _lower_peak(check_id, loads.torque, share, cures),
+            lambda check_id, share: _lower_peak(check_id, state, loads.torque, share, cures),
             allowables.pin_limit_peak(find_material(state.design.reducer.ring_material)),
             MODEL,
         ),
@@ -236,7 +251,13 @@ def _statics(state: GearboxState, loads: PeakLoads, cures: Cures) -> tuple[Check
 
 
 def _static(
-    torque: float, check_id: str, seat: BearingResult, load: float, larger: str, cures: Cures
+    state: GearboxState,
+    torque: float,
+    check_id: str,
+    seat: BearingResult,
+    load: float,
+    larger: str,
+    cures: Cures,
 ) -> Check:
     rating, name = seat.bearing.static_rating, seat.bearing.designation
     if not rating:
@@ -249,7 +270,7 @@ def _static(
         allowables.STATIC_SAFETY,
         f"{name}: {rating:.0f} N/{load:.1f} N = {safety:.3f} at {torque:g} N*m",
         f"needs C0 of {load / 1e3 * allowables.STATIC_SAFETY:.3g} kN: take {larger}; or "
-        + _lower_peak(check_id, torque, safety / allowables.STATIC_SAFETY, cures),
+        + _lower_peak(check_id, state, torque, safety / allowables.STATIC_SAFETY, cures),
         model=MODEL,
     )
 

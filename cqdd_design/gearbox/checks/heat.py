@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from cqdd_design.gearbox.checks.allowables import BINDING_OVERLAP
 from cqdd_design.gearbox.checks.state import build_check
+from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.results import Check
 
 
@@ -42,15 +43,21 @@ def rise_check(parts: tuple[WarmPart, ...], ambient: float, heat: float, as_draw
     worst = max(parts, key=used)
     told = ", ".join(f"{one.name} {one.temperature:.0f} of {one.most:g}" for one in parts)
     needed = (worst.most - ambient) / max(as_drawn, 1e-9)
+    enough = ""
+    if needed > 0.0:
+        # What warm parts lose is known only once they are: mostly less, of thinner lubricant.
+        enough = (
+            f": {rounded_down(needed, 2):g} K/W to the air carry off the {as_drawn:.0f} W lost "
+            "before parts are warm, and more may do"
+        )
     return build_check(
         "THERMAL-RISE",
         worst.temperature,
         worst.most,
         f"{told} degC in air of {ambient:g} degC; {heat:.0f} W in all, {as_drawn:.0f} before parts "
         "are warm",
-        f"cool it: {as_drawn:.0f} W ask for less than {needed:.2g} K/W to the air (state what "
-        "cooling reaches as drive.thermal_resistance), or lower requirements.continuous_torque, "
-        "input_speed, or friction",
+        f"cool it{enough} (state what cooling reaches as drive.thermal_resistance), or lower "
+        "requirements.continuous_torque, input_speed, or friction",
     )
 
 

@@ -22,6 +22,8 @@ _MOST_THICKENING = 2.0
 """A thicker disc or pin is offered as a remedy up to this many times what it was."""
 _AS_STIFF = 0.9
 """Of a part's modulus: what is softer is no harder part, though it would spread the contact."""
+_SPARE = 1.02
+"""Reserve of another material, since stiffer bodies share with fewer teeth and pins."""
 _UNMOVED = 0.05e-3
 """A circle that moves by less need not be told, m."""
 
@@ -45,6 +47,12 @@ def lower_to(torque: float, which: str = "torque") -> str:
     if torque <= 0.0:
         return f"no {which} is low enough"
     return f"lower the {which} to {torque_words(torque)}"
+
+
+def lower_peak(torque: float, continuous: float) -> str:
+    """The same of the peak torque (N m), below which the continuous one (N m) has to stay."""
+    words = lower_to(torque)
+    return f"{words} (with it the continuous torque)" if 0.0 < torque < continuous else words
 
 
 def softer_contact(thickness: float, torque: float, pressure: float, limit: float) -> str:
@@ -98,7 +106,7 @@ def harder_parts(
         (one[0] + two[0], one, two)
         for one in offered[0]
         for two in offered[1]
-        if min(one[0], two[0]) >= pressure * math.sqrt(now / (one[2] + two[2]))
+        if min(one[0], two[0]) >= _SPARE * pressure * math.sqrt(now / (one[2] + two[2]))
     ]
     if not enough:
         most = rounded_up(pressure / _MEGA)
@@ -138,11 +146,14 @@ def stronger_capacity(state: GearboxState, torque: float, needed: float) -> str:
 
 
 def better_held(reducer: Reducer) -> list[str]:
-    """How to hold pins so that they bend less; nothing where they are held as well as can be."""
+    """How to hold pins so that they bend less; nothing where they are held as well as can be.
+
+    How much less is not known without the equilibrium of pins that are held so.
+    """
     if reducer.output_pins.support != "both":
-        return ["hold the pins at both ends (reducer.output_pins.support)"]
+        return ["hold the pins at both ends (reducer.output_pins.support), which helps"]
     if reducer.carrier.joint == "hinged":
-        return ["clamp them in the cap too (reducer.carrier.joint)"]
+        return ["clamp them in the cap too (reducer.carrier.joint), which helps"]
     return []
 
 

@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 
 from cqdd_design.catalog.screws import LEAST_COLUMN, pin_diameter_limits
+from cqdd_design.errors import CqddError
 from cqdd_design.gearbox.cam_bearing import least_bore
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.state import GearboxState, build_check
+from cqdd_design.geometry.disc import ligaments
 from cqdd_design.geometry.limits import at_most, rounded_down, rounded_up
 from cqdd_design.results import Check
 
 _SLACK = 1e-12
 """Lengths below this are rounding, m."""
+_MOVES = 20
+"""Of a circle of holes, until they stand right."""
 
 
 def shape_checks(state: GearboxState) -> tuple[Check, ...]:
@@ -114,7 +119,6 @@ def _ligaments(state: GearboxState) -> tuple[Check, ...]:
         return max(limit - geometry.ligament(kind).thickness, 0.0)
 
     to_bore, to_rim = short("hole to bore"), short("bore to profile")
-    inward = circle - short("hole to profile")
     columns: tuple[Check, ...] = ()
     if state.design.reducer.carrier.column_count:
         kinds = ("column to hole", "column to profile", "column to bore")
@@ -137,7 +141,7 @@ def _ligaments(state: GearboxState) -> tuple[Check, ...]:
         one(
             "GEO-LIGAMENT-PROFILE",
             "hole to profile",
-            f"lower output_pins.circle_radius to about {_mm(inward):.2f} mm",
+            _inward(state) if short("hole to profile") else "",
         ),
         one(
             "GEO-LIGAMENT-BORE",
@@ -154,6 +158,26 @@ def _ligaments(state: GearboxState) -> tuple[Check, ...]:
         ),
         *columns,
     )
+
+
+def _inward(state: GearboxState) -> str:
+    """The circle whose holes leave enough beside the lobes, by the distance to their nearest point.
+
+    That moves along the lobe as the holes go inward, so they are looked at again.
+    """
+    key, bore = "reducer.output_pins.circle_radius", state.cam_bearing.bearing.outer_diameter
+    circle, found = state.stages.pin_circle_radius, state.geometry.ligaments
+    with suppress(CqddError):
+        for _ in range(_MOVES):
+            short = allowables.LIGAMENT - next(
+                one.thickness for one in found if one.kind == "hole to profile"
+            )
+            if short <= _SLACK:
+                return f"lower output_pins.circle_radius to {_mm(circle):g} mm"
+            # To a hundredth of a millimetre, so that what is told is what was looked at.
+            circle = 1e-5 * math.floor(1e5 * (circle - short))
+            found = ligaments(state.design.replacing({key: circle}), bore_diameter=bore)
+    return "use fewer or thinner pins, or lower output_pins.circle_radius"
 
 
 def _fits(state: GearboxState) -> tuple[Check, ...]:
@@ -200,14 +224,16 @@ def _space(state: GearboxState) -> tuple[Check, ...]:
     discs, spacing = design.reducer.disc_count, design.reducer.disc_spacing
     thin = (wanted.length - (discs - 1) * spacing) / discs
     thinner = f"lower disc_thickness to {rounded_down(_mm(thin)):g} mm, or " if thin > 0.0 else ""
+    walled = wanted.outer_diameter >= 2.0 * (state.geometry.ring_root_radius + allowables.RING_WALL)
+    smaller = f"lower ring.outer_diameter to {_mm(wanted.outer_diameter):g} mm, or "
     return (
         build_check(
             "SPACE-DIAMETER",
             _mm(outer),
             _mm(wanted.outer_diameter),
             f"{_mm(outer):.4g} mm in {_mm(wanted.outer_diameter):.4g} mm",
-            f"lower ring.outer_diameter to {_mm(wanted.outer_diameter):g} mm, or raise "
-            f"requirements.outer_diameter to {rounded_up(_mm(outer), 4):g} mm",
+            (smaller if walled else "")
+            + f"raise requirements.outer_diameter to {rounded_up(_mm(outer), 4):g} mm",
             severity="warn" if "requirements.outer_diameter" in design.assumed else "fail",
         ),
         build_check(

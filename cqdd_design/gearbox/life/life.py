@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -61,7 +61,9 @@ def duty_cases(design: Design) -> tuple[tuple[DutyCase, ...], bool]:
     return (DutyCase(asked.continuous_torque, speed, 1.0),), True
 
 
-def life(design: Design, model: ContactModel, *, friction: bool = True) -> LifeResult:
+def life(
+    design: Design, model: ContactModel, *, friction: bool = True, share: float = 1.0
+) -> LifeResult:
     """Life of contacts, output pins and cam bearings under the duty of the requirements.
 
     Parameters
@@ -71,6 +73,8 @@ def life(design: Design, model: ContactModel, *, friction: bool = True) -> LifeR
     friction : bool
         Whether teeth and pins rub: the crank drives where torque and speed of a case agree, and
         where it stands still, and is driven where they oppose each other.
+    share : float
+        Of the duty's torques that counts.
 
     Raises
     ------
@@ -84,7 +88,8 @@ def life(design: Design, model: ContactModel, *, friction: bool = True) -> LifeR
     equilibrium. The contact of pin and hole is that of bare pins and of sleeves that stand still:
     a sleeve that turns spreads its load over its rim. What turns inside it is judged on its own.
     """
-    cases, assumed = duty_cases(design)
+    stated, assumed = duty_cases(design)
+    cases = tuple(replace(case, torque=share * case.torque) for case in stated)
     asked = design.requirements
     angles = cycles.crank_angles(model.lobe_count, model.pin_count)
     states = nominal_states(model, angles)
@@ -249,7 +254,11 @@ def _pin_bending(duty: _Duty) -> tuple[PartLife, list[NDArray[np.complex128]]]:
             fatigue.largest_factor(partial(one.damage, endurance, ultimate), hours)
             for one in fibres
         )
-    stress = swing if reverses else fatigue.goodman_pulsating(swing, ultimate)
+    if math.isinf(swing):
+        # A mean beyond the ultimate strength, which no reversed stress stands for.
+        stress = max(float(np.abs(one).max()) for one in stresses)
+    else:
+        stress = swing if reverses else fatigue.goodman_pulsating(swing, ultimate)
     rate = max(rates, default=0.0)
     part = _part(name, place, stress, limit, count, rate, reserve, float(duty.turns.sum()))
     return part, stresses
