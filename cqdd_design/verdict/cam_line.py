@@ -5,13 +5,13 @@ from __future__ import annotations
 from cqdd_design.catalog.adhesives import ROTOR_COMPOUND
 from cqdd_design.errors import CatalogError, ContactError, GeometryError
 from cqdd_design.gearbox.checks.allowables import GREASE_MOST, bond_limit
-from cqdd_design.gearbox.checks.remedies import lower_to
+from cqdd_design.gearbox.checks.remedies import lower_peak
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.machine import Machine
+from cqdd_design.machine.cures import torques_that_hold
 from cqdd_design.machine.loose_cam import LooseCam, loose_cam
 from cqdd_design.machine.temperatures import MachineTemperatures
 from cqdd_design.results import Check
-from cqdd_design.verdict.cures import torques_that_hold
 
 CAM_JOINT = "CAM-JOINT"
 _MEGA = 1e6
@@ -38,9 +38,10 @@ def cam_line(machine: Machine, warm: MachineTemperatures | None) -> Check | None
         return build_check(CAM_JOINT, None, None, error.message, "see why it is not known")
     if now.status != "fail" or not now.limit:
         return now
-    peak = machine.design.requirements.peak_torque
+    asked = machine.design.requirements
+    peak, lasting = asked.peak_torque, asked.continuous_torque
     held = torques_that_hold(lambda at: (_judged(machine, cam, warm, at),), peak, (now,))
-    return _judged(machine, cam, warm, peak, f"{_WIDER}; or {lower_to(held[CAM_JOINT])}")
+    return _judged(machine, cam, warm, peak, f"{_WIDER}; or {lower_peak(held[CAM_JOINT], lasting)}")
 
 
 def _judged(

@@ -13,7 +13,7 @@ from disc_patches import DiscPatches
 from ring_patches import ring_stress_at
 
 from cqdd_design.catalog.materials import find_material
-from cqdd_design.design import load_design
+from cqdd_design.design import Design, load_design
 from cqdd_design.errors import GeometryError
 from cqdd_design.gearbox.bodies import strength as strength_module
 from cqdd_design.gearbox.bodies import stress as stress_module
@@ -114,6 +114,41 @@ def test_greatest_stress_of_the_ring_is_that_of_a_second_mesh(name: str, seat: f
         shape, contact[at], push[at], shape.roots().point[place], 0.15e-3, 0.6e-3
     )
     assert found[at, place] == pytest.approx(expected, rel=3e-2)
+
+
+def test_stress_beside_a_unit_load_that_stands_for_a_contact_is_not_the_rings() -> None:
+    """A place where stress is found may coincide with one of loads: here by 5 nm, at 1.08 mm."""
+    asked = {"ratio": 22, "peak_torque": "39 N*m", "continuous_torque": "5 N*m"}
+    steel = "AISI 52100 / 100Cr6 hardened"
+    peaks = []
+    for eccentricity in ("1.08 mm", "1.078 mm", "1.075 mm"):
+        design = Design.from_mapping(
+            {
+                "requirements": asked,
+                "reducer": {
+                    "ratio": 22,
+                    "ring_pitch_radius": "30.5 mm",
+                    "eccentricity": eccentricity,
+                    "ring_pin_diameter": "3.6 mm",
+                    "disc_thickness": "7 mm",
+                    "disc_material": steel,
+                    "ring_material": steel,
+                    "modification": {"equidistant": "16 um"},
+                    "output_pins": {
+                        "count": 14,
+                        "diameter": "6 mm",
+                        "circle_radius": "22 mm",
+                        "hole_clearance": "56 um",
+                    },
+                    "cam_bearing": {"designation": "6804"},
+                    "ring": {"outer_diameter": "67 mm"},
+                },
+            }
+        )
+        strength = analyse_bodies(resolve(design))
+        peaks.append(abs(strength.peak("ring").stress) / 1e6)
+    assert peaks[0] == pytest.approx(16.03, rel=1e-3)
+    assert peaks == pytest.approx([peaks[0]] * 3, rel=0.03)
 
 
 @pytest.mark.parametrize("friction", ["drive", "backdrive"])

@@ -42,7 +42,7 @@ _BETWEEN: dict[bool, Region] = {False: "hole to hole", True: "column to hole"}
 """What parts an output pin's hole from the next, and from a column's that stands between."""
 _THERE = 1e-6
 """Distance over the holes' circle within which a column's hole stands where one is looked for."""
-_STEPS = 2.5
+_STEPS, _BESIDE = 2.5, 0.5
 """Steps of the grid round a loaded contact in which stress is the contact's."""
 
 
@@ -170,9 +170,18 @@ def _clear(
     forces: FloatArray,
     steps: FloatArray,
 ) -> FloatArray:
-    """The same with nan where a loaded contact is near."""
-    contact = np.sum(spots.share * loaded.point[spots.near], axis=-1)
+    """The same with nan where a loaded contact is near, or a place that stands for one.
+
+    Four places stand for a contact, at the end of a tooth one three steps from it, and beside a
+    unit load stress has no bound.
+    """
+    stands = loaded.point[spots.near]
+    contact = np.sum(spots.share * stands, axis=-1)
     for k in range(contact.shape[1]):
-        near = np.abs(seen.point - contact[:, k, None]) < _STEPS * steps[:, k, None]
+        step = steps[:, k, None]
+        near = np.abs(seen.point - contact[:, k, None]) < _STEPS * step
+        for one in range(stands.shape[-1]):
+            beside = np.abs(seen.point - stands[:, k, one, None]) < _BESIDE * step
+            near |= beside & (spots.share[:, k, one, None] != 0.0)
         stress[near & (forces[:, k, None] > 0.0)] = np.nan
     return stress
