@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -14,6 +15,7 @@ from cqdd_design.results import Check, Status
 from cqdd_design.verdict.evidence import Evidence
 from cqdd_design.verdict.motor import MODEL as OPERATING
 
+_RPM = 30.0 / math.pi
 _LIFE_LINES = (
     "CONTACT-RING-CONTINUOUS",
     "CONTACT-PIN-CONTINUOUS",
@@ -89,16 +91,25 @@ def _of_line(name: str, title: str, line: Check) -> Figure:
 
 
 def _continuous(evidence: Evidence, by_id: dict[str, Check]) -> Figure:
-    """What is held for ever; under a duty nothing is asked of it, and the duty's heat decides."""
+    """What is held for ever.
+
+    Under a duty nothing is asked of it: the figure names the speed that it is held at, which is not
+    the duty's, and the duty's heat decides.
+    """
     name, title, line = "continuous_torque", "continuous torque", by_id.get("MOTOR-CONTINUOUS")
     if line is not None:
         return _of_line(name, title, line)
     heat, actuator = by_id["THERMAL-RISE"], evidence.actuator
     asked = evidence.machine.design.requirements
-    value = None
+    value, alone = None, ""
     if actuator is not None:
         value = float(held_torque(actuator, asked.held_speed / asked.ratio)[0])
-    basis = f"{OPERATING}; the duty's heat decides, see the temperature"
+        alone = "" if value > 0.0 else ": friction alone heats the winding too much there"
+    title += f" at {asked.held_speed * _RPM:.0f} rpm"
+    basis = (
+        f"{OPERATING}, for ever at this speed of the motor{alone}; not asked for, the duty's heat "
+        "decides, see the temperature"
+    )
     return Figure(name, title, value, "N*m", None, heat.status, basis)
 
 

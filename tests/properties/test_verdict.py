@@ -182,6 +182,14 @@ def test_under_a_duty_its_heat_decides_and_not_the_continuous_torque(machine: Ma
     figure = judged.headline[1]
     assert (figure.id, figure.required) == ("continuous_torque", None)
     assert figure.status == lines["THERMAL-RISE"].status == "pass"
+    # The duty is slow, and at the input speed this friction alone is too much: 0 N m says so.
+    assert figure.title == "continuous torque at 1286 rpm"
+    assert figure.value == 0.0
+    assert "friction alone heats the winding too much there; not asked for" in figure.basis
+    relaxed = Design.from_mapping(mapping | {"environment": {"ambient": "-5 degC"}})
+    cooler = judge(resolve(relaxed), samples=0).headline[1]
+    assert (cooler.value or 0.0) > 0.0
+    assert "friction alone" not in cooler.basis
 
 
 def test_the_first_figure_is_the_weaker_of_motor_and_gearbox(judged: Verdict) -> None:
