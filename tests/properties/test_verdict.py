@@ -14,7 +14,7 @@ from shared_outputs import paper_input
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.operating import held_torque, needed
 from cqdd_design.actuator.specimen import AS_DRAWN
-from cqdd_design.catalog.motors import DRAG
+from cqdd_design.catalog.motors import DRAG, find_motor
 from cqdd_design.design import Design, load_design
 from cqdd_design.gearbox.checks.equilibrium import ENDLESS
 from cqdd_design.gearbox.checks.guide_row import GEOMETRY
@@ -230,6 +230,16 @@ def test_a_motor_without_a_figure_never_passes(machine: Machine, key: str) -> No
         asked = resolve(more, blank.motor)
         found = motor_lines(asked, actuator_parameters(asked), "")
         assert by_id(found)["MOTOR-PEAK"].status == "fail"
+
+
+def test_nothing_asks_for_the_stator_bore_of_a_motor_behind_the_gearbox() -> None:
+    behind = replace(find_motor("CubeMars RI70 KV95"), **dict.fromkeys(DRAG, 0.0))
+    assert behind.bore_diameter is None
+    assert missing_figures(behind) == ()
+    machine = resolve(load_design(DESIGNS / "cqdd-10.toml"), behind)
+    assert not [one for one in machine.analysis.warnings if "stator bore" in one]
+    assert "MOTOR-DATA" not in by_id(machine.analysis.checks)
+    assert "MOTOR-DATA" not in by_id(motor_lines(machine, actuator_parameters(machine), ""))
 
 
 def test_without_an_actuator_every_limit_of_the_motor_is_unknown(machine: Machine) -> None:
