@@ -460,6 +460,14 @@ def test_figures_of_the_bench_show_its_numbers(
     assert widths[1] / widths[0] == pytest.approx(sizes[1] / sizes[0], rel=0.02)
 
 
+def test_the_gain_of_torque_names_no_unit_that_a_switch_would_turn_in_one_place_alone(
+    actuator: ActuatorParameters, measured: BenchResult
+) -> None:
+    figures = bench_view(actuator, measured, pin_count=5)["figures"]
+    (caption,) = [one.caption for one in figures if "gain relative" in one.caption]
+    assert re.search(r"gain relative to [01]\.\d+ of the torque asked at low", caption)
+
+
 def test_cells_of_efficiency_are_those_measured(measured: BenchResult) -> None:
     grid = metric_of(measured, "efficiency_peak")
     torque, efficiency = grid.trace["torque [N m]"], grid.trace["efficiency"]
