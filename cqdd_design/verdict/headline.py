@@ -14,6 +14,7 @@ from cqdd_design.machine.carrying import carried_torque, carried_up_to
 from cqdd_design.results import Check, Status
 from cqdd_design.verdict.evidence import Evidence
 from cqdd_design.verdict.motor import MODEL as OPERATING
+from cqdd_design.verdict.shaft_lines import support_share
 
 _RPM = 30.0 / math.pi
 _LIFE_LINES = (
@@ -120,7 +121,7 @@ def _peak(machine: Machine, motor: Check, lines: Sequence[Check]) -> Figure:
     ways = [] if motor.value is None else [(motor.value, motor.basis)]
     linear = [line for line in lines if line.id in _IN_PROPORTION]
     ways += [
-        (required * line.margin, f"{line.title}: {line.basis}, by proportion")
+        (required * _share(machine, line), f"{line.title}: {line.basis}, by proportion")
         for line in linear
         if line.known and line.margin < 1e6
     ]
@@ -135,6 +136,12 @@ def _peak(machine: Machine, motor: Check, lines: Sequence[Check]) -> Figure:
         # What is known reaches it, but something is not known.
         value, status = None, "unknown"
     return Figure(name, title, value, "N*m", required, status, basis)
+
+
+def _share(machine: Machine, line: Check) -> float:
+    """Of the peak torque, at which a line of `_IN_PROPORTION` is on its limit."""
+    share = support_share(machine) if line.id == "SUPPORT-STATIC" else None
+    return line.margin if share is None else share
 
 
 def _life(machine: Machine, by_id: dict[str, Check]) -> Figure:

@@ -121,6 +121,20 @@ def _rotor(machine: Machine) -> _Rotor:
     return _Rotor(np.array(on_bearings))
 
 
+def support_share(machine: Machine) -> float | None:
+    """Share of the peak torque at which SUPPORT-STATIC is on its limit; None where not known."""
+    rating = machine.seats[0].bearing.static_rating
+    if rating is None:
+        return None
+    discs = support_loads(machine, machine.peak_pack).max(axis=(0, 1))
+    return max(_support_share(discs, _rotor(machine), rating), 0.0)
+
+
+def _support_share(discs: FloatArray, rotor: _Rotor, rating: float) -> float:
+    """Of the discs' forces (2,), N, which alone are in proportion to the torque."""
+    return float(((rating / STATIC_SAFETY - rotor.on_bearings) / discs).min())
+
+
 def _support_static(machine: Machine, peak: PackLoads, rotor: _Rotor) -> Check:
     asked, chosen = machine.design.requirements, machine.seats[0]
     discs, seat = support_loads(machine, peak).max(axis=(0, 1)), chosen.bearing
@@ -133,8 +147,7 @@ def _support_static(machine: Machine, peak: PackLoads, rotor: _Rotor) -> Check:
             "leave room for a bearing (a wider cam bearing)",
         )  # fmt: skip
     safety = seat.static_rating / most
-    # Only the discs' forces are in proportion to the torque.
-    share = float(((seat.static_rating / STATIC_SAFETY - rotor.on_bearings) / discs).min())
+    share = _support_share(discs, rotor, seat.static_rating)
     return build_check(
         "SUPPORT-STATIC",
         safety,

@@ -202,6 +202,16 @@ def test_the_first_figure_is_the_weaker_of_motor_and_gearbox(judged: Verdict) ->
     assert (figure.value < 50.0) == (motor < 50.0 or not ring.satisfied)
 
 
+def test_the_rotor_hangs_on_the_support_bearings_at_any_torque() -> None:
+    """By proportion of all of their load the first figure was 8.04 N m, and its remedy 6.3."""
+    judged = judge(resolve(load_design(DESIGNS / "printed-13.toml")), samples=0)
+    figure, line = judged.headline[0], by_id(judged.lines)["SUPPORT-STATIC"]
+    assert figure.basis.startswith(line.title)
+    assert (
+        f"lower the torque to {math.floor(10.0 * (figure.value or 0.0)) / 10.0:g} " in line.remedy
+    )
+
+
 def test_drag_that_nobody_measured_never_passes(machine: Machine) -> None:
     """Stated as nothing it is known."""
     free = replace(machine.motor, **dict.fromkeys(DRAG))
