@@ -182,8 +182,8 @@ def _motor(row: Motor, inertia: GearboxInertia, origins: dict[str, str]) -> Moto
     ):
         if not value:
             raise DesignError(
-                f"the {key.replace('_', ' ')} of {row.name} is not known, without which it cannot "
-                f"be simulated; give {key} in [motor] or with --motor-file, or name a motor that "
+                f"the {key.replace('_', ' ')} of {row.name} is not known, and a simulation "
+                f"needs it; give {key} in [motor] or with --motor-file, or name a motor that "
                 "has one, such as 'CubeMars RO100 KV55'."
             )
     assert row.torque_constant is not None

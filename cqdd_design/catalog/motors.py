@@ -173,6 +173,11 @@ class Motor:
         return self.torque_constant_printed / CONVENTIONS[self.torque_constant_convention]
 
     @property
+    def is_inrunner(self) -> bool:
+        """Whether its rotor turns inside its stator: it then stands behind the gearbox."""
+        return "inrunner" in self.kind
+
+    @property
     def lacks_drag(self) -> bool:
         """Whether nothing is known of what the motor alone takes to turn."""
         return all(getattr(self, name) is None for name in DRAG)
@@ -187,7 +192,7 @@ class Motor:
             lacking.append("drag")
         if self.cogging_amplitude is None:
             lacking.append("cogging")
-        if self.bore_diameter is None and "inrunner" not in self.kind:
+        if self.bore_diameter is None and not self.is_inrunner:
             lacking.append("stator bore")
         return tuple(lacking)
 

@@ -164,7 +164,7 @@ class Output:
 
         kernels = missing(simulation=simulation, ensembles=ensembles, sizing=sizing)
         if kernels:
-            self.note("compiling on this first use, once; the next run starts at once")
+            self.note("compiling on this first use; what is kept of it is not compiled again")
             compile_kernels(kernels, self.counting("kernels compiled", alike=False), design)
             self.end_progress(done=True)
             self._bar = None

@@ -2,13 +2,18 @@
 
 numba keeps what it compiled in files, which a full disk or a killed process leaves damaged, and
 believes whatever it finds there, though what was compiled into a kernel has changed in another
-file. Kernels import numba from here.
+file. Kernels import numba from here. Where no folder can be written, which numba refuses, they are
+kept for one run.
 """
 
 from __future__ import annotations
 
+import atexit
 import functools
 import logging
+import os
+import shutil
+import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -55,6 +60,33 @@ def _guard() -> None:
     FunctionCache.save_overload = stamped  # type: ignore[method-assign]
 
 
+def _find_place() -> None:
+    """Keep kernels for this run alone where none of numba's folders can be written.
+
+    In a folder of this user, since what is read from it is run.
+    """
+    place: Any = FunctionCache
+    try:
+        place(_guard)
+    except RuntimeError:
+        folder = tempfile.mkdtemp(prefix="cqdd-design-kernels-")
+        # Processes that are started inherit the variable.
+        os.environ["NUMBA_CACHE_DIR"] = folder
+        config: Any = numba.config
+        config.reload_config()
+        atexit.register(_clear, folder, os.getpid())
+        _log.warning(
+            "no folder for compiled kernels can be written, so every run compiles them; "
+            "set NUMBA_CACHE_DIR to one"
+        )
+
+
+def _clear(folder: str, owner: int) -> None:
+    """Remove the folder of one run, at the exit of the process that made it and of no fork."""
+    if os.getpid() == owner:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
 def _stamp(cache: Any) -> None:
     """Keep a kernel as long as all that is in it stays; asked when all of its module is there."""
     if not isinstance(cache._cache_file._source_stamp, str):
@@ -78,4 +110,5 @@ def kept_signatures(cache: Any) -> list[Any]:
         return []
 
 
+_find_place()
 _guard()

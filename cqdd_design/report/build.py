@@ -249,9 +249,11 @@ def _closing(results: ReportInput, groups: tuple[Group, ...]) -> Values:
     literature, catalogue = sources_used(
         analysis, parts, results.checks, planetary=results.planetary is not None
     )
+    # A model and the verdict, which took it up, may warn of the same.
+    warnings = dict.fromkeys((*analysis.warnings, *results.notes))
     return {
         "assumptions": model_assumptions(design),
-        "warnings": tuple(printed(line) for line in (*analysis.warnings, *results.notes)),
+        "warnings": tuple(printed(line) for line in warnings),
         "defaults": folded(groups).left,
         "literature": literature,
         "catalogue": tuple((printed(row), uses) for row, uses in catalogue),

@@ -26,7 +26,7 @@ from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.results import MassProperties
 from cqdd_design.solids import counterweights
 from cqdd_design.solids.mesh import mass_properties, mesh_volume
-from cqdd_design.solids.motor_rules import drawn_motor, is_inrunner, light_rotor
+from cqdd_design.solids.motor_rules import drawn_motor, light_rotor
 from cqdd_design.solids.part import Instance, Part
 from cqdd_design.solids.poses import Body
 
@@ -40,7 +40,7 @@ of a motor count both, so both stand for it together and neither comes on top.""
 
 def rotor_scope(motor: Motor) -> str:
     """What a catalogue's inertia of a rotor counts beside its magnets, in words."""
-    return "without the hub that carries it" if is_inrunner(motor) else "its bell included"
+    return "without the hub that carries it" if motor.is_inrunner else "its bell included"
 
 
 GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
@@ -202,7 +202,7 @@ class GearboxInertia:
     @property
     def crank_scope(self) -> str:
         """What `gearbox_reflected` counts, in words."""
-        if is_inrunner(self.motor):
+        if self.motor.is_inrunner:
             return "gearbox as drawn, with the rotor's hub and without the motor's rotor"
         return "gearbox as drawn, without the motor's rotor and its bell"
 

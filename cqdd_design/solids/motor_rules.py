@@ -79,11 +79,6 @@ _INRUNNER = (
 """What is drawn of a motor, and its words."""
 
 
-def is_inrunner(motor: Motor) -> bool:
-    """Whether its rotor turns inside its stator."""
-    return "inrunner" in motor.kind
-
-
 def light_rotor(motor: Motor) -> str:
     """Say that an inrunner's rotor would be lighter than its sizes are; empty where it is not.
 
@@ -92,7 +87,7 @@ def light_rotor(motor: Motor) -> str:
     """
     inner, outer = motor.hollow_diameter, motor.gap_diameter
     long, inertia = motor.rotor_length or motor.stack_length, motor.rotor_inertia
-    if not (is_inrunner(motor) and inner and outer and long and inertia):
+    if not (motor.is_inrunner and inner and outer and long and inertia):
         return ""
     # J = pi/32 rho l (D^4 - d^4)
     ring = math.pi / 32.0 * long * ((outer - AIR_GAP) ** 4 - inner**4)
@@ -107,7 +102,7 @@ def light_rotor(motor: Motor) -> str:
 
 
 def _sizes(motor: Motor) -> tuple[tuple[str, str], ...]:
-    return _INRUNNER if is_inrunner(motor) else _OUTRUNNER
+    return _INRUNNER if motor.is_inrunner else _OUTRUNNER
 
 
 def undrawn_sizes(motor: Motor) -> tuple[str, ...]:
@@ -153,7 +148,7 @@ def motor_place(motor: Motor, pack: PackLayout, unit: float) -> MotorPlace:
     """
     own = pack.ring_radius + 2.0 * unit
     drawn, missing = drawn_motor(motor)
-    if is_inrunner(motor) or drawn is None:
+    if motor.is_inrunner or drawn is None:
         return MotorPlace(own, None, False, missing)
     inside = 0.5 * (drawn.bore_diameter or 0.0)
     wall = inside - pack.ring_radius

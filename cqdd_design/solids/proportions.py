@@ -37,7 +37,6 @@ from cqdd_design.solids.motor_rules import (
     MotorPlace,
     bell_material,
     bell_torque,
-    is_inrunner,
     lay_out_motor,
     motor_place,
 )
@@ -105,7 +104,7 @@ def lay_out(design: Design, cam_bearing: Bearing, motor: Motor) -> Layout:
                 row, pack, housing, support, unit, torque,
                 weights=weights, metal=metal, hollow=hollow,
             )  # fmt: skip
-    elif is_inrunner(motor) and not missing:
+    elif motor.is_inrunner and not missing:
         missing = misfit(motor, support, unit)
         if not missing:
             inside = lay_out_inrunner(motor, housing, support, unit, torque, hollow)

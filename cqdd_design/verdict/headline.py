@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -13,7 +14,9 @@ from cqdd_design.machine.carrying import carried_torque, carried_up_to
 from cqdd_design.results import Check, Status
 from cqdd_design.verdict.evidence import Evidence
 from cqdd_design.verdict.motor import MODEL as OPERATING
+from cqdd_design.verdict.shaft_lines import support_share
 
+_RPM = 30.0 / math.pi
 _LIFE_LINES = (
     "CONTACT-RING-CONTINUOUS",
     "CONTACT-PIN-CONTINUOUS",
@@ -89,16 +92,25 @@ def _of_line(name: str, title: str, line: Check) -> Figure:
 
 
 def _continuous(evidence: Evidence, by_id: dict[str, Check]) -> Figure:
-    """What is held for ever; under a duty nothing is asked of it, and the duty's heat decides."""
+    """What is held for ever.
+
+    Under a duty nothing is asked of it: the figure names the speed that it is held at, which is not
+    the duty's, and the duty's heat decides.
+    """
     name, title, line = "continuous_torque", "continuous torque", by_id.get("MOTOR-CONTINUOUS")
     if line is not None:
         return _of_line(name, title, line)
     heat, actuator = by_id["THERMAL-RISE"], evidence.actuator
     asked = evidence.machine.design.requirements
-    value = None
+    value, alone = None, ""
     if actuator is not None:
         value = float(held_torque(actuator, asked.held_speed / asked.ratio)[0])
-    basis = f"{OPERATING}; the duty's heat decides, see the temperature"
+        alone = "" if value > 0.0 else ": friction alone heats the winding too much there"
+    title += f" at {asked.held_speed * _RPM:.0f} rpm"
+    basis = (
+        f"{OPERATING}, for ever at this speed of the motor{alone}; not asked for, the duty's heat "
+        "decides, see the temperature"
+    )
     return Figure(name, title, value, "N*m", None, heat.status, basis)
 
 
@@ -109,7 +121,7 @@ def _peak(machine: Machine, motor: Check, lines: Sequence[Check]) -> Figure:
     ways = [] if motor.value is None else [(motor.value, motor.basis)]
     linear = [line for line in lines if line.id in _IN_PROPORTION]
     ways += [
-        (required * line.margin, f"{line.title}: {line.basis}, by proportion")
+        (required * _share(machine, line), f"{line.title}: {line.basis}, by proportion")
         for line in linear
         if line.known and line.margin < 1e6
     ]
@@ -124,6 +136,12 @@ def _peak(machine: Machine, motor: Check, lines: Sequence[Check]) -> Figure:
         # What is known reaches it, but something is not known.
         value, status = None, "unknown"
     return Figure(name, title, value, "N*m", required, status, basis)
+
+
+def _share(machine: Machine, line: Check) -> float:
+    """Of the peak torque, at which a line of `_IN_PROPORTION` is on its limit."""
+    share = support_share(machine) if line.id == "SUPPORT-STATIC" else None
+    return line.margin if share is None else share
 
 
 def _life(machine: Machine, by_id: dict[str, Check]) -> Figure:

@@ -27,7 +27,7 @@ from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.geometry.limits import rounded_down, rounded_up
 from cqdd_design.machine import Machine
 from cqdd_design.results import Check
-from cqdd_design.solids.motor_rules import is_inrunner, undrawn_sizes
+from cqdd_design.solids.motor_rules import undrawn_sizes
 
 MODEL = "operating points of the simulated actuator"
 _RPM = 30.0 / math.pi
@@ -51,8 +51,12 @@ GIVE = "give them in the design's [motor] table or with --motor-file, or name a 
 
 
 def missing_figures(motor: Motor) -> tuple[str, ...]:
-    """What the catalogue, or a file instead, does not say of a motor."""
-    missing = tuple(words for key, words in _FIGURES if getattr(motor, key) is None)
+    """What the catalogue, or a file instead, does not say of a motor.
+
+    An inrunner stands behind the gearbox: nothing asks for the bore of its stator.
+    """
+    figures = [one for one in _FIGURES if not (motor.is_inrunner and one[0] == "bore_diameter")]
+    missing = tuple(words for key, words in figures if getattr(motor, key) is None)
     return (*missing, DRAG_MISSING) if motor.lacks_drag else missing
 
 
@@ -223,7 +227,7 @@ def _fastest(actuator: ActuatorParameters, torque: float) -> float:
 def _bore(machine: Machine) -> tuple[Check, ...]:
     """The ring inside the stator; no line for a motor that stands behind the gearbox."""
     outer, motor = machine.design.reducer.ring.outer_diameter, machine.motor
-    if is_inrunner(motor):
+    if motor.is_inrunner:
         return _behind(machine, outer)
     if motor.bore_diameter is None:
         told = f"ring {outer * 1e3:.4g} mm; the stator bore of '{motor.name}' is not known"

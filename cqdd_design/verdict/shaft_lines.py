@@ -151,6 +151,19 @@ def _rotor(machine: Machine) -> _Rotor:
     return _Rotor(np.array(on_bearings))
 
 
+def support_share(machine: Machine) -> float | None:
+    """Share of the peak torque at which SUPPORT-STATIC is on its limit; None where not known.
+
+    Of the discs' forces, which alone are in proportion to the torque.
+    """
+    rating = machine.seats[0].bearing.static_rating
+    if rating is None:
+        return None
+    discs = support_loads(machine, machine.peak_pack).max(axis=(0, 1))
+    left = rating / STATIC_SAFETY - _rotor(machine).on_bearings
+    return max(float((left / discs).min()), 0.0)
+
+
 def _support_static(machine: Machine, peak: PackLoads, rotor: _Rotor) -> Check:
     asked, chosen = machine.design.requirements, machine.seats[0]
     discs, seat = support_loads(machine, peak).max(axis=(0, 1)), chosen.bearing

@@ -40,7 +40,6 @@ from cqdd_design.report import ReportInput, build_report
 from cqdd_design.report.actuator.bench_charts import Response, bode, spectrum
 from cqdd_design.report.actuator.bench_figures import efficiency_maps
 from cqdd_design.report.actuator.bench_table import (
-    RELATIONS,
     bench_row,
     bench_view,
     comparison,
@@ -461,6 +460,14 @@ def test_figures_of_the_bench_show_its_numbers(
     assert widths[1] / widths[0] == pytest.approx(sizes[1] / sizes[0], rel=0.02)
 
 
+def test_the_gain_of_torque_names_no_unit_that_a_switch_would_turn_in_one_place_alone(
+    actuator: ActuatorParameters, measured: BenchResult
+) -> None:
+    figures = bench_view(actuator, measured, pin_count=5)["figures"]
+    (caption,) = [one.caption for one in figures if "gain relative" in one.caption]
+    assert re.search(r"gain relative to [01]\.\d+ of the torque asked at low", caption)
+
+
 def test_cells_of_efficiency_are_those_measured(measured: BenchResult) -> None:
     grid = metric_of(measured, "efficiency_peak")
     torque, efficiency = grid.trace["torque [N m]"], grid.trace["efficiency"]
@@ -503,7 +510,7 @@ def test_the_table_stands_beside_the_paper_s(
     assert rows["actuator_inertia"]["unit"] == "kg·cm²"
     assert rows["actuator_inertia"]["paper"] == "5.01"
     for row in view["rows"]:
-        assert row["relation"] in dict(RELATIONS)
+        assert row["relation"] in dict(view["relations"])
         assert row["protocol"].endswith(".")
         assert (row["off"] == "\u2013") == (
             row["relation"] == "not comparable" or "\u2013" in (row["paper"], row["value"])
@@ -539,6 +546,10 @@ def test_another_design_has_no_paper_beside_it(
     bench = section(page_of(paper_input, bench=(actuator, alone)), "bench")
     assert ">Paper<" not in bench
     assert ">Off by<" not in bench
+    # Nothing is measured that the values could agree with.
+    assert ">Value is<" in bench
+    assert "greement" not in bench
+    assert "without looking at the measured value" not in bench
 
 
 def test_a_gearbox_that_holds_itself_has_nothing_to_backdrive(
@@ -609,13 +620,15 @@ def test_nothing_that_is_not_a_number_is_printed(page: str) -> None:
         assert not re.search(r'="[^"]*\b(?:nan|inf)\b', markup), anchor
 
 
-def test_every_measurement_has_its_row_and_protocol(page: str, measured: BenchResult) -> None:
+def test_every_measurement_has_its_row_and_protocol(
+    page: str, actuator: ActuatorParameters, measured: BenchResult
+) -> None:
     bench = section(page, "bench")
     rows = re.findall(r'<tbody data-metric="(\w+)">(.*?)</tbody>', bench, re.S)
     assert [name for name, _ in rows] == [metric.name for metric in measured.metrics]
     for _, row in rows:
         assert row.count("<tr") == 2
-    for word, meaning in RELATIONS:
+    for word, meaning in bench_view(actuator, measured, pin_count=5)["relations"]:
         assert word in words_of(bench)
         assert meaning in words_of(bench)
 
@@ -647,6 +660,13 @@ def test_a_motor_that_cannot_be_simulated_leaves_a_sentence(design: Design) -> N
     assert 'href="#actuator"' in page
     assert 'href="#bench"' not in page
     assert 'id="bench"' not in page
+    # What the gearbox's analysis and the verdict both warn of is told once.
+    again = report_input(unknown)
+    notes = (*again.notes, *again.gearbox.warnings)
+    warned = build_report(dataclasses.replace(again, notes=notes))
+    assert again.gearbox.warnings
+    closing = words_of(section(warned, "assumptions"))
+    assert closing.count("has no stator bore in the catalogue") == 1
 
 
 def test_the_paper_is_spoken_of_beside_its_own_actuator_alone(

@@ -373,6 +373,15 @@ def test_ripple_of_drawn_gearboxes_is_their_mean(actuator: ActuatorParameters) -
     assert found.value > 3.0 * found.details["perfect_parts_Nm"]
 
 
+def test_ripple_is_not_said_to_be_at_a_torque_that_the_driver_cannot_give(
+    actuator: ActuatorParameters,
+) -> None:
+    assert "A in the motor for about 40 N*m" in measured(actuator, "torque_ripple").protocol
+    drive = dataclasses.replace(actuator.drive, current_limit=10.0)
+    weak = measured(dataclasses.replace(actuator, drive=drive), "torque_ripple").protocol
+    assert "10 A in the motor, the most its driver gives and too little for 40 N*m:" in weak
+
+
 def test_saturation_limits_of_the_paper() -> None:
     """4.9 Hz at 45 degrees by speed, 30.6 Hz at 5 degrees by torque, from the paper's own rows."""
     speed, torque, inertia = 128.6 / RPM, 89.9, 5.01e-2

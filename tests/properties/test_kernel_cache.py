@@ -60,6 +60,26 @@ def test_a_spoilt_kernel_is_compiled_anew(run, tmp_path):
     assert (again.stdout, again.stderr) == (first.stdout, "")
 
 
+NOWHERE = """
+from numba.core import caching
+caching.CacheImpl._locator_classes = [caching.UserProvidedCacheLocator]
+"""
+
+
+def test_where_no_folder_can_be_written_kernels_are_kept_for_one_run(tmp_path, monkeypatch):
+    """As for a user without a home, of a package that another user installed."""
+    monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
+    monkeypatch.setenv("PYTHONPATH", ":".join(sys.path))
+    done = subprocess.run(
+        [sys.executable, "-c", NOWHERE + RUN], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith("(1.52")
+    assert "set NUMBA_CACHE_DIR" in done.stderr
+    assert not list(tmp_path.iterdir())
+
+
 VALUES = """
 from typing import NamedTuple
 FACTOR = 2.0

@@ -11,7 +11,7 @@ from cqdd_design.gearbox.checks.allowables import LIGAMENT, RING_WALL
 from cqdd_design.geometry.scale import largest_ring, millimetre_unit, ring_within_rotor
 from cqdd_design.machine import resolve
 from cqdd_design.machine.motor_standing import motor_standing, room_round_motor
-from cqdd_design.solids.motor_rules import is_inrunner, undrawn_sizes
+from cqdd_design.solids.motor_rules import undrawn_sizes
 
 LEAST_RING, MOST_RING = 45e-3, 150e-3
 
@@ -23,7 +23,7 @@ def paper(paper_design_file) -> Design:
 
 def test_no_inrunner_that_is_drawn_has_room_for_a_gearbox_or_goes_into_one() -> None:
     """Rings of 45 to 150 mm: the rotor's bore is too narrow, the motor too wide for a cam."""
-    drawn = [one for one in motors().values() if is_inrunner(one) and not undrawn_sizes(one)]
+    drawn = [one for one in motors().values() if one.is_inrunner and not undrawn_sizes(one)]
     assert len(drawn) >= 2
     unit, eccentricity = millimetre_unit(MOST_RING), 1e-3
     balls = [one for one in bearings().values() if one.kind == "ball"]

@@ -14,7 +14,7 @@ from shared_outputs import paper_input
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.operating import held_torque, needed
 from cqdd_design.actuator.specimen import AS_DRAWN
-from cqdd_design.catalog.motors import DRAG
+from cqdd_design.catalog.motors import DRAG, find_motor
 from cqdd_design.design import Design, load_design
 from cqdd_design.gearbox.checks.equilibrium import ENDLESS
 from cqdd_design.gearbox.checks.guide_row import GEOMETRY
@@ -182,6 +182,14 @@ def test_under_a_duty_its_heat_decides_and_not_the_continuous_torque(machine: Ma
     figure = judged.headline[1]
     assert (figure.id, figure.required) == ("continuous_torque", None)
     assert figure.status == lines["THERMAL-RISE"].status == "pass"
+    # The duty is slow, and at the input speed this friction alone is too much: 0 N m says so.
+    assert figure.title == "continuous torque at 1286 rpm"
+    assert figure.value == 0.0
+    assert "friction alone heats the winding too much there; not asked for" in figure.basis
+    relaxed = Design.from_mapping(mapping | {"environment": {"ambient": "-5 degC"}})
+    cooler = judge(resolve(relaxed), samples=0).headline[1]
+    assert (cooler.value or 0.0) > 0.0
+    assert "friction alone" not in cooler.basis
 
 
 def test_the_first_figure_is_the_weaker_of_motor_and_gearbox(judged: Verdict) -> None:
@@ -192,6 +200,16 @@ def test_the_first_figure_is_the_weaker_of_motor_and_gearbox(judged: Verdict) ->
     assert figure.value <= motor
     ring = lines["CONTACT-RING-PEAK"]
     assert (figure.value < 50.0) == (motor < 50.0 or not ring.satisfied)
+
+
+def test_the_rotor_hangs_on_the_support_bearings_at_any_torque() -> None:
+    """By proportion of all of their load the first figure was 8.04 N m, and its remedy 6.3."""
+    judged = judge(resolve(load_design(DESIGNS / "printed-13.toml")), samples=0)
+    figure, line = judged.headline[0], by_id(judged.lines)["SUPPORT-STATIC"]
+    assert figure.basis.startswith(line.title)
+    assert (
+        f"lower the torque to {math.floor(10.0 * (figure.value or 0.0)) / 10.0:g} " in line.remedy
+    )
 
 
 def test_drag_that_nobody_measured_never_passes(machine: Machine) -> None:
@@ -222,6 +240,16 @@ def test_a_motor_without_a_figure_never_passes(machine: Machine, key: str) -> No
         asked = resolve(more, blank.motor)
         found = motor_lines(asked, actuator_parameters(asked), "")
         assert by_id(found)["MOTOR-PEAK"].status == "fail"
+
+
+def test_nothing_asks_for_the_stator_bore_of_a_motor_behind_the_gearbox() -> None:
+    behind = replace(find_motor("CubeMars RI70 KV95"), **dict.fromkeys(DRAG, 0.0))
+    assert behind.bore_diameter is None
+    assert missing_figures(behind) == ()
+    machine = resolve(load_design(DESIGNS / "cqdd-10.toml"), behind)
+    assert not [one for one in machine.analysis.warnings if "stator bore" in one]
+    assert "MOTOR-DATA" not in by_id(machine.analysis.checks)
+    assert "MOTOR-DATA" not in by_id(motor_lines(machine, actuator_parameters(machine), ""))
 
 
 def test_without_an_actuator_every_limit_of_the_motor_is_unknown(machine: Machine) -> None:

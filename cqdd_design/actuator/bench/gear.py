@@ -265,10 +265,13 @@ def torque_ripple(
     own = _ripple(parameters, speed)
     others = [_ripple(one, speed) for one in drawn]
     shown = others[0] if others else own
+    current, gear = _current(parameters), parameters.gear
+    meant = f" for about {gear.error_torque:g} N*m"
+    if current >= parameters.drive.current_limit:
+        meant = f", the most its driver gives and too little for {gear.error_torque:g} N*m"
     protocol = (
-        f"Output at {speed:g} rad/s, {_current(parameters):.3g} A in the motor for about "
-        f"{parameters.gear.error_torque:g} N*m: half of the peak-to-peak torque "
-        "over each turn of the motor, mean over a turn of the output"
+        f"Output at {speed:g} rad/s, {current:.3g} A in the motor{meant}: half of the "
+        "peak-to-peak torque over each turn of the motor, mean over a turn of the output"
     )
     strongest = np.argsort(shown.amplitudes)[::-1][:5]
     details = {f"order_{int(shown.orders[k])}_Nm": float(shown.amplitudes[k]) for k in strongest}

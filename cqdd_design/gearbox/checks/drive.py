@@ -99,12 +99,13 @@ def _disc_count(state: GearboxState) -> Check:
 
 def _motor(state: GearboxState) -> tuple[tuple[Check, ...], tuple[str, ...]]:
     motor, name = state.motor, state.motor.name
-    known = (
+    known = [
         (_peak, motor.peak_torque, "peak torque"),
         (_continuous, motor.rated_torque, "rated torque"),
         (_speed, motor.speed_constant, "speed constant"),
-        (_bore, motor.bore_diameter, "stator bore"),
-    )
+    ]
+    if not motor.is_inrunner:  # which stands behind the gearbox
+        known.append((_bore, motor.bore_diameter, "stator bore"))
     checks = [make(state, motor, value) for make, value, _ in known if value is not None]
     lacking = [what for _, value, what in known if value is None]
     if lacking:

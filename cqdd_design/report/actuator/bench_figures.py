@@ -66,7 +66,7 @@ def _torque_bode(metric: Metric) -> list[Figure]:
     found = _response(metric, low)
     edge = _hertz(found.edge)
     caption = (
-        f"Of the locked output, gain relative to {significant(low, 3)} N·m per N·m asked at low "
+        f"Of the locked output, gain relative to {significant(low, 3)} of the torque asked at low "
         f"frequencies; \u22123 dB at {edge}, \u221290° at {_hertz(found.quarter)}."
     )
     if found.coherence is not None:

@@ -30,7 +30,7 @@ from cqdd_design.terms import measurement
 _NO_SPREAD = 1e-3
 """Of the value: a smaller spread is not told in digits."""
 
-RELATIONS = (
+_BESIDE_MEASURED = (
     (
         "given",
         "an input, an identity, or what follows from clearances that the design assumes: an "
@@ -44,7 +44,18 @@ RELATIONS = (
     ),
     ("not comparable", "measured under conditions that are not known"),
 )
-"""What the words about an agreement mean."""
+"""What the words about an agreement with measured values mean."""
+_ALONE = (
+    ("given", "an input, an identity, or what follows from clearances that the design assumes"),
+    ("calibrated", "fitted to a measured value"),
+    ("predicted", "computed from geometry, catalogue and usual friction and cooling"),
+    (
+        "not comparable",
+        "hangs on gains, amplitude and supply, which data sheets seldom state: no measure beside "
+        "another actuator's",
+    ),
+)
+"""What they mean where no measured values stand beside."""
 
 _SHOWN_UNITS: dict[str, tuple[str, float]] = {"": ("%", 100.0), "kg*m^2": ("kg·cm²", 1e4)}
 
@@ -71,7 +82,8 @@ def bench_view(parameters: ActuatorParameters, bench: BenchResult, *, pin_count:
         "summary": _summary(bench),
         "rows": tuple(bench_row(metric, bench, holds=holds) for metric in bench.metrics),
         "beside_paper": bench.beside_paper,
-        "relations": RELATIONS,
+        "relation_heading": "Agreement is" if bench.beside_paper else "Value is",
+        "relations": _BESIDE_MEASURED if bench.beside_paper else _ALONE,
         "figures": bench_figures(parameters, bench, pin_count),
         "comparison": comparison(parameters, bench),
     }
