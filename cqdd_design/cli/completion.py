@@ -1,4 +1,4 @@
-"""What the shell offers after TAB: design files, and names of motors, materials and checks.
+"""What the shell offers after TAB: design files, names of motors, materials and checks, and kinds.
 
 A shell waits for it, so names are read from the package's files, without numpy or the catalogue's
 readers. A test holds them against what those give.
@@ -13,10 +13,13 @@ from pathlib import Path
 from typing import Any
 
 from cqdd_design.cli.check_names import CHECKS
+from cqdd_design.exporting.kinds import KINDS
 
 _ASKED_BY = "_CQDD_DESIGN_COMPLETE"
 """Variable in which Typer's scripts say which shell asks."""
 _PACKAGE = Path(__file__).parents[1]
+TEMPLATES = ("design", "duty", "motor", "requirements")
+"""Kinds of template that `new` writes."""
 _CATALOGUES = {
     "materials": "materials.csv",
     "motors": "motors.csv",
@@ -75,6 +78,12 @@ def _rows(catalogue: str) -> list[str]:
         return [row[0] for row in list(csv.reader(kept))[1:] if row]
 
 
+def export_kinds(incomplete: str) -> list[str]:
+    """Kinds of export that begin as the last of a list separated by commas does."""
+    before, comma, begun = incomplete.rpartition(",")
+    return [f"{before}{comma}{name}" for name in KINDS if name.startswith(begun)]
+
+
 motors = _starting(lambda: _rows("motors"))
 checks = _starting(lambda: CHECKS)
 catalogued = _starting(
@@ -87,3 +96,7 @@ catalogued = _starting(
     ]
 )
 """Catalogues, and the rows of those that designs name most."""
+templates = _starting(lambda: TEMPLATES)
+examples = _starting(
+    lambda: sorted(one.stem for one in (_PACKAGE / "design" / "examples").glob("*.toml"))
+)

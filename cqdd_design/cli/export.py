@@ -8,6 +8,7 @@ from typing import Annotated
 
 import typer
 
+from cqdd_design.cli import completion
 from cqdd_design.cli.options import Calibrated, Force, NamedMotor, OwnMotor, option, parse_positive
 from cqdd_design.cli.session import Output, read_design, read_specimen
 from cqdd_design.exporting.kinds import kinds_for, read_kinds, stages
@@ -21,7 +22,11 @@ def export(
     ],
     to: Annotated[
         str,
-        option("LIST", f"Kinds: {kinds_for('makers')}; {kinds_for('simulators')} for simulators."),
+        option(
+            "LIST",
+            f"Kinds: {kinds_for('makers')}; {kinds_for('simulators')} for simulators.",
+            autocompletion=completion.export_kinds,
+        ),
     ] = "dxf,step",
     folder: Annotated[
         Path | None, option("DIR", "Where to; default exports/NAME.", "--out")

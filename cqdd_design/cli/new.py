@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from cqdd_design.cli import completion
 from cqdd_design.cli.options import Force, option
 from cqdd_design.cli.session import Output
 from cqdd_design.environment import project_folder
@@ -20,10 +21,16 @@ def new(
         typer.Argument(
             metavar="[KIND]",
             help="What to write: design, duty, motor or requirements, with every key.",
+            autocompletion=completion.templates,
         ),
     ] = None,
     example: Annotated[
-        str | None, option("NAME", "An example design instead, such as cqdd-10.")
+        str | None,
+        option(
+            "NAME",
+            "An example design instead, such as cqdd-10.",
+            autocompletion=completion.examples,
+        ),
     ] = None,
     target: Annotated[
         Path | None, option("FILE", "Default KIND.toml, duty.csv or NAME.toml, here.", "--out")

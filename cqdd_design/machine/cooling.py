@@ -77,11 +77,14 @@ def _enough(surplus: Callable[[float], float], least: float, most: float) -> flo
     for _ in range(_HALVINGS):
         middle = math.sqrt(least * most)
         least, most = (middle, most) if surplus(middle) <= 0.0 else (least, middle)
-    if surplus(most) <= 0.0:
+    low, high = math.log(least), math.log(most)
+    # Where an end is the answer, the logarithm's rounding must not turn its sign.
+    ends = {low: surplus(least), high: surplus(most)}
+    if ends[high] <= 0.0:
         return most
-    if surplus(least) >= 0.0:
+    if ends[low] >= 0.0:
         return least
-    found = brentq(lambda x: surplus(math.exp(x)), math.log(least), math.log(most), xtol=_STILL)
+    found = brentq(lambda x: ends[x] if x in ends else surplus(math.exp(x)), low, high, xtol=_STILL)
     return math.exp(found)
 
 

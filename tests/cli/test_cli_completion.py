@@ -9,6 +9,7 @@ import pytest
 from cqdd_design import catalog
 from cqdd_design.cli import completion
 from cqdd_design.cli.check_names import CHECKS
+from cqdd_design.design import templates
 from cqdd_design.gearbox.checks.guide import CHECK_GUIDE
 
 ASK = """
@@ -57,6 +58,16 @@ def test_bash_is_offered_commands_designs_and_names(offered) -> None:
     assert r"CubeMars\ RO100\ KV55" in motors
 
 
+def test_kinds_templates_and_examples_are_offered(offered) -> None:
+    assert offered("bash", "export", "knee.toml", "--to", "d").split() == ["dxf"]
+    assert offered("bash", "export", "knee.toml", "--to", "dxf,st").split() == [
+        "dxf,step",
+        "dxf,stl",
+    ]
+    assert offered("bash", "new", "d").split() == ["design", "duty"]
+    assert offered("bash", "new", "--example", "cq").split() == ["cqdd-10"]
+
+
 def test_zsh_is_offered_names_as_they_are(offered) -> None:
     assert "AISI 4140" in offered("zsh", "catalog", "aisi")
     assert "knee.toml" in offered("zsh", "analyse", "kn")
@@ -66,5 +77,7 @@ def test_names_are_those_of_catalogue_and_guide(monkeypatch) -> None:
     monkeypatch.delenv("_CQDD_DESIGN_COMPLETE", raising=False)
     assert tuple(CHECK_GUIDE) == CHECKS
     assert completion.motors("") == list(catalog.motors())
+    assert completion.templates("") == list(templates.TEMPLATES)
+    assert completion.examples("") == list(templates.examples())
     for name in (*catalog.materials(), *catalog.motors()):
         assert name in completion.catalogued(name)

@@ -23,7 +23,7 @@ from cqdd_design.gearbox.heat.expansion import PartTemperatures
 from cqdd_design.gearbox.heat.network import Heat
 from cqdd_design.gearbox.losses.swept import SWEEP_ANGLES
 from cqdd_design.machine import Machine, resolve
-from cqdd_design.machine.cooling import cooled_network, two_nodes
+from cqdd_design.machine.cooling import _enough, cooled_network, two_nodes
 from cqdd_design.machine.duty_heat import DutyCase, DutyHeat, duty_cases, duty_heat
 from cqdd_design.machine.heat_nodes import NODES, node_values
 from cqdd_design.machine.settling import settle
@@ -402,3 +402,14 @@ def test_what_is_not_known_is_said(machine: Machine) -> None:
     assert "PA6-CF" in told[0]
     origin = actuator_parameters(carbon).origins["thermal.winding_to_housing"]
     assert origin.startswith("assumed: 1.2 K/W split 1 to 2")
+
+
+def test_a_limit_at_the_end_of_what_is_tried_is_found() -> None:
+    """Where it is reached at 100 to the last digit, whose logarithm's power is a digit less."""
+    for middle in (100.0, 1000.0, 31.6, 1e-3):
+        for shift in (-1e-15, 0.0, 1e-15):
+
+            def surplus(x: float, end: float = middle * (1.0 + shift)) -> float:
+                return x - end
+
+            assert _enough(surplus, 1e-3, 1e5) == pytest.approx(middle, rel=1e-9)
