@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Iterable
 from functools import partial
 
-from cqdd_design.errors import CatalogError, ContactError, GeometryError
+from cqdd_design.errors import CatalogError, DesignError
 from cqdd_design.results import Check
 
 Checks = Iterable[Check]
@@ -61,7 +61,7 @@ def torques_that_hold(
         if at not in tried:
             try:
                 tried[at] = {check.id: check.margin for check in checks_at(at) if check.known}
-            except (CatalogError, ContactError, GeometryError):
+            except (CatalogError, DesignError):
                 tried[at] = {}
         return tried[at].get(check_id, 0.0)
 

@@ -239,7 +239,7 @@ WRONG = {
     ("--out", "trace.csv"): "trace.csv ends neither in .npz nor in .parquet; name it trace.npz",
     ("--out", "."): "name it simulation.npz",
     ("--seed", "18446744073709551615", "--samples", "2"): "seeds end at 18446744073709551615",
-    ("--samples", "0"): "Invalid value for '--samples'",
+    ("--samples", "0"): "--samples takes a whole number from 1 to 10000, not '0'; the nearest is 1",
 }
 
 

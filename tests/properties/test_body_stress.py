@@ -32,7 +32,6 @@ from cqdd_design.gearbox.bodies.strength import (
 from cqdd_design.gearbox.bodies.stress import ring_stress
 from cqdd_design.gearbox.checks.allowables import edge_limit_fatigue
 from cqdd_design.gearbox.checks.bodies import body_checks
-from cqdd_design.gearbox.checks.remedies import torque_words
 from cqdd_design.gearbox.contact.rubbing import ContactFriction
 from cqdd_design.gearbox.contact.states import nominal_states
 from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
@@ -148,7 +147,7 @@ def test_stress_beside_a_unit_load_that_stands_for_a_contact_is_not_the_rings() 
         strength = analyse_bodies(resolve(design))
         peaks.append(abs(strength.peak("ring").stress) / 1e6)
     assert peaks[0] == pytest.approx(16.03, rel=1e-3)
-    assert peaks == pytest.approx([peaks[0]] * 3, rel=0.03)
+    assert peaks == pytest.approx([peaks[0]] * 3, rel=0.05)
 
 
 @pytest.mark.parametrize("friction", ["drive", "backdrive"])
@@ -275,9 +274,9 @@ def test_checks_hold_stress_against_yield_and_endurance() -> None:
     assert not any(one.satisfied for one in strong.values())
     assert strong["LIGAMENT-STRESS"].value == pytest.approx(800.0)
     assert "compression" in strong["LIGAMENT-STRESS"].substituted
-    assert "disc_thickness to about 9.21 mm" in strong["ROOT-STRESS"].remedy
-    assert "peak torque to about 78.1 N*m" in strong["ROOT-STRESS"].remedy
-    assert "continuous torque to about 23.8 N*m" in strong["ROOT-FATIGUE"].remedy
+    # Forces are in no proportion to thickness or torque: a verdict looks for the torque that holds.
+    assert strong["ROOT-STRESS"].remedy == "raise disc_thickness, or lower the peak torque"
+    assert strong["ROOT-FATIGUE"].remedy.endswith("or lower the continuous torque")
 
 
 def test_a_stronger_steel_and_one_without_figures() -> None:
@@ -354,9 +353,7 @@ def test_a_plastic_held_for_long_strains_by_its_creep() -> None:
     assert line.limit == pytest.approx(1.0)
     (line,) = plastic("POM (acetal)", steel, 0.0, 20e6).values()
     assert (line.status, line.value) == ("fail", pytest.approx(100.0 * 20.0 / 1300.0))
-    # 13 of 20 MPa are 1 %: so much less torque.
-    held = machine_of_s().given.requirements.continuous_torque
-    assert f"lower it to about {torque_words(0.65 * held)}" in line.remedy
+    assert "lower the continuous torque" in line.remedy
     # The worse of two plastics: PA66 has 0.7 GPa.
     (line,) = plastic("POM (acetal)", "PA66", 0.0, 5e6).values()
     assert "in the ring of PA66" in line.substituted

@@ -182,7 +182,10 @@ def test_known_creep_passes_and_fails(printed: Machine) -> None:
     )
     assert light.value == pytest.approx(100.0 * most / modulus)
     hung = creep_of(moulded.changed({"requirements.external_axial": "50 N"}))
-    assert "external loads" in hung.remedy
+    assert "lower the continuous torque to" in hung.remedy
+    # So heavy that no torque is low enough beside it.
+    heavy = creep_of(moulded.changed({"requirements.external_axial": "3 kN"}))
+    assert heavy.remedy.endswith("lower the continuous torque and the external loads")
     assert "external loads" not in failed.remedy
 
 
