@@ -20,6 +20,7 @@ from cqdd_design.actuator.specimen import Specimen
 from cqdd_design.design import load_design
 from cqdd_design.errors import UsageError
 from cqdd_design.machine import resolve
+from cqdd_design.report.actuator.bench_figures import bench_figures
 
 PAPER = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
 RPM = 30.0 / math.pi
@@ -218,6 +219,19 @@ def test_position_bandwidth_stays_below_what_saturation_allows(
     assert found.value <= 1.05 * min(limits)
     assert found.relation == "not comparable"
     assert "60 N*m*s/rad at 24 V" in found.protocol
+
+
+def test_a_joint_that_friction_holds_has_no_position_bandwidth(
+    actuator: ActuatorParameters,
+) -> None:
+    """Its gain of nothing over nothing was told as the last frequency, and drawn."""
+    soft = changed(actuator, drive={"position_gain": 2.0, "velocity_gain": 0.01})
+    result = run_bench(soft, only=["position_bandwidth_5deg"])
+    (found,) = result.metrics
+    assert math.isnan(found.value)
+    assert "friction holds the output: of 5 deg asked at 0.5 Hz" in found.missing
+    assert "raise drive.position_gain" in found.missing
+    assert bench_figures(soft, result, 10) == ()
 
 
 def test_efficiency_without_friction_is_the_motors(actuator: ActuatorParameters) -> None:

@@ -21,6 +21,8 @@ COHERENT = 0.8
 """Below it a transfer function is not to be trusted."""
 _LOW = 4.0
 """Hz; the mean gain up to there is that of low frequencies."""
+_FOLLOWS = 0.1
+"""Least gain at the lowest frequency of a joint that follows at all."""
 _SENSOR_DAMPING = 0.01
 """Ratio of the motor swinging on the sensor: steel with screwed flanges."""
 
@@ -189,7 +191,10 @@ def crossing(frequency: FloatArray, values: FloatArray, level: float) -> float:
 def position_bandwidth(
     parameters: ActuatorParameters, amplitude_deg: float, voltage: float
 ) -> Metric:
-    """Stepped sine of an impedance loop: gain of the fundamental at each frequency."""
+    """Stepped sine of an impedance loop: gain of the fundamental at each frequency.
+
+    There is no value where friction holds the output at the lowest of them.
+    """
     supplied = with_voltage(parameters, voltage)
     amplitude = math.radians(amplitude_deg)
     frequencies = np.geomspace(0.5, 60.0 if amplitude_deg < 20.0 else 12.0, 28)
@@ -219,9 +224,19 @@ def position_bandwidth(
         amplitude,
     )
     name = "position_bandwidth_45deg" if amplitude_deg > 20.0 else "position_bandwidth_5deg"
+    missing, edge = "", math.nan
+    if gain[0] >= _FOLLOWS:
+        edge = crossing(frequencies, gain / gain[0], DOWN)
+    else:
+        push = parameters.drive.position_gain * amplitude
+        missing = (
+            f"friction holds the output: of {amplitude_deg:g} deg asked at {frequencies[0]:g} Hz "
+            f"it follows {gain[0] * amplitude_deg:.2g} deg, with the {push:.3g} N*m that "
+            f"{parameters.drive.position_gain:g} N*m/rad make of them; raise drive.position_gain"
+        )
     return Metric(
         name,
-        crossing(frequencies, gain / gain[0], DOWN),
+        edge,
         "not comparable",
         f"Stepped sine of {amplitude_deg:g} deg amplitude, impedance control with "
         f"{parameters.drive.position_gain:g} N*m/rad and {parameters.drive.velocity_gain:g} "
@@ -233,9 +248,12 @@ def position_bandwidth(
             "position_gain_Nm_per_rad": parameters.drive.position_gain,
             "velocity_gain_Nms_per_rad": parameters.drive.velocity_gain,
         },
-        trace={
+        trace={}
+        if missing
+        else {
             "frequency [Hz]": frequencies,
             "gain": gain,
             "phase [rad]": np.array(delays),
         },
+        missing=missing,
     )
