@@ -39,6 +39,7 @@ _ZONE = re.compile(
 )
 _STYLES = re.compile(rb"#\d+ = MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION\(")
 _BEYOND_ASCII = re.compile(r"[^\x00-\x7f]")
+_COMMON = re.compile(rb"COMMON_DATUM_LIST\((#[^()]*)\)")
 _LINE_END = re.compile(rb"\s*\n\s*")
 
 
@@ -122,9 +123,17 @@ def _write_stated(design: Design, part: Part, path: Path) -> WrittenFile:
                 f"{path.name} holds {found[0]} solids with {found[1]} sizes and {found[2]} "
                 f"tolerances instead of one with {wanted[1]} and {wanted[2]}; nothing was kept."
             )
-        place.write_bytes(_reproducible(content, design, path.name))
+        place.write_bytes(_reproducible(_listed(content), design, path.name))
 
     return write_with(path, "step", write)
+
+
+def _listed(content: bytes) -> bytes:
+    """The file with common datums as Part 21 has typed lists, in brackets of their own.
+
+    The kernel leaves these out, and other readers stop there (ISO 10303-21, 10.3).
+    """
+    return _COMMON.sub(lambda one: b"COMMON_DATUM_LIST((%s))" % one.group(1), content)
 
 
 def _write(
