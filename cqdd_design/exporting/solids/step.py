@@ -131,7 +131,8 @@ def _write_stated(design: Design, part: Part, path: Path) -> WrittenFile:
 def _listed(content: bytes) -> bytes:
     """The file with common datums as Part 21 has typed lists, in brackets of their own.
 
-    The kernel leaves these out, and other readers stop there (ISO 10303-21, 10.3).
+    A typed parameter holds one parameter, here a list (ISO 10303-21). The kernel leaves its
+    brackets out, and other readers stop there.
     """
     return _COMMON.sub(lambda one: b"COMMON_DATUM_LIST((%s))" % one.group(1), content)
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from cqdd_design.catalog.materials import DESIGN_STRAIN, Material, find_material
 from cqdd_design.design import Design
 from cqdd_design.gearbox.bodies.strength import LIGAMENTS, BodyStrength, Swing
@@ -13,10 +15,20 @@ from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.results import Check
 
 _MEGA = 1e6
-_PARTS: tuple[tuple[str, tuple[Region, ...], str], ...] = (
-    ("LIGAMENT", LIGAMENTS, "widen the ligament, or "),
-    ("ROOT", ("root",), ""),
-    ("RING", ("ring",), "raise ring.outer_diameter, or "),
+
+
+class _Part(NamedTuple):
+    """What a pair of checks is of, its regions, and the first thing to do where it is too weak."""
+
+    name: str
+    regions: tuple[Region, ...]
+    first: str
+
+
+_PARTS = (
+    _Part("LIGAMENT", LIGAMENTS, "widen the ligament, or "),
+    _Part("ROOT", ("root",), ""),
+    _Part("RING", ("ring",), "raise ring.outer_diameter, or "),
 )
 
 
@@ -35,10 +47,10 @@ def body_checks(
     """
     found = [
         check
-        for part, regions, first in _PARTS
+        for part in _PARTS
         for check in (
-            _static(part, regions, first, design, strength, cures),
-            _fatigue(part, regions, first, design, strength, cures),
+            _static(part, design, strength, cures),
+            _fatigue(part, design, strength, cures),
         )
     ]
     return (*found, *_creep(design, strength, cures))
@@ -89,47 +101,33 @@ def _creep(design: Design, strength: BodyStrength, cures: Cures) -> tuple[Check,
     )
 
 
-def _static(
-    part: str,
-    regions: tuple[Region, ...],
-    first: str,
-    design: Design,
-    strength: BodyStrength,
-    cures: Cures,
-) -> Check:
-    peak, material = strength.peak(*regions), _material(part, design)
+def _static(part: _Part, design: Design, strength: BodyStrength, cures: Cures) -> Check:
+    peak, material = strength.peak(*part.regions), _material(part.name, design)
     allowed, stress = edge_limit_peak(material), abs(peak.stress)
-    first = _at_columns(peak.region) or first
+    first = _at_columns(peak.region) or part.first
     kind = "tension" if peak.stress > 0.0 else "compression"
-    where = "" if part in {"ROOT", "RING"} else f" ({peak.region})"
+    where = "" if part.name in {"ROOT", "RING"} else f" ({peak.region})"
     return build_check(
-        f"{part}-STRESS",
+        f"{part.name}-STRESS",
         stress / _MEGA,
         _known(allowed),
         f"{stress / _MEGA:.1f} MPa in {kind} at disc {peak.disc + 1}{where}, "
         f"b {design.reducer.disc_thickness * 1e3:g} mm, at {peak.torque:g} N*m",
-        _remedy(first, f"{part}-STRESS", allowed, "peak", cures),
+        _remedy(first, f"{part.name}-STRESS", allowed, "peak", cures),
         basis=allowed.basis,
     )
 
 
-def _fatigue(
-    part: str,
-    regions: tuple[Region, ...],
-    first: str,
-    design: Design,
-    strength: BodyStrength,
-    cures: Cures,
-) -> Check:
-    swing, material = strength.swing(*regions), _material(part, design)
+def _fatigue(part: _Part, design: Design, strength: BodyStrength, cures: Cures) -> Check:
+    swing, material = strength.swing(*part.regions), _material(part.name, design)
     allowed, stress = edge_limit_fatigue(material), swing.reversed_amplitude
-    first = _at_columns(swing.region) or first
+    first = _at_columns(swing.region) or part.first
     return build_check(
-        f"{part}-FATIGUE",
+        f"{part.name}-FATIGUE",
         stress / _MEGA,
         _known(allowed),
         _cycle_words(swing, material, design.requirements.continuous_torque),
-        _remedy(first, f"{part}-FATIGUE", allowed, "continuous", cures),
+        _remedy(first, f"{part.name}-FATIGUE", allowed, "continuous", cures),
         basis=allowed.basis,
     )
 
