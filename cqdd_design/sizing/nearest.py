@@ -1,6 +1,7 @@
 """The nearest requirements that fit where some do not, each borne out by the whole verdict.
 
-In each direction by itself. Torques are lowered as those are that nobody stated. A larger ring or
+In each direction by itself. Torques are lowered as those are that nobody stated, and raised again
+while more fits. A larger ring or
 longer discs are looked for by the equilibrium, with the reserve that part errors were found to
 take; what is told has been searched to the verdict just as whoever asks for it would.
 """
@@ -55,6 +56,9 @@ _DIGITS, _HELD = 2, 0.97
 """Of torques that are told; share of what a motor was found to hold for ever that is tried."""
 _NO_LOADS = {"BACKLASH", "LOST-MOTION", "STIFFNESS", "SHOCK-STOP", "SURFACE-TEMPERATURE"}
 """Lines of which a search by loads alone does not know how much space they take."""
+_RISES, _NEAR = 4, 1.02
+"""Torques between one that fits and one that does not that are tried, and the factor between the
+two within which none is."""
 _ALONE = {PEAK: {"MOTOR-PEAK"}, CONTINUOUS: {"MOTOR-CONTINUOUS", "THERMAL-RISE"}}
 """Lines that less of one torque alone helps."""
 
@@ -130,7 +134,8 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
     ways, needed, still = [], {}, {}
     most = lasting = ratio = None
     if less.found is not None:
-        fits = less.found.sizing.design.requirements
+        hunt.say("looking for more torque that still fits")
+        fits = _more_again(hunt, less.found).sizing.design.requirements
         most, lasting = fits.peak_torque, fits.continuous_torque
         ways.append(f"peak_torque {most:g} N*m with continuous_torque {lasting:g} N*m")
     if isinstance(refusal, MotorShortError):
@@ -217,6 +222,34 @@ def _less_torque(hunt: Hunt, refusal: SizingInfeasibleError) -> _Way:
             if way.found is not None:
                 return way
     return _tried(hunt, asked.deriving(PEAK, CONTINUOUS))
+
+
+def _more_again(hunt: Hunt, found: VerifiedDesign) -> VerifiedDesign:
+    """A design for more than torques that were found to fit, until a little more does not.
+
+    Torques that are lowered go down in strides, and a design that just fails is eased on and on;
+    another may bear what lies between.
+    """
+    asked = hunt.requirements
+    too_much = {key: getattr(asked, key) for key in (PEAK, CONTINUOUS) if key not in asked.derived}
+    for _ in range(_RISES):
+        fits = found.sizing.design.requirements
+        tried = {key: _between(getattr(fits, key), most) for key, most in too_much.items()}
+        if all(getattr(fits, key) == torque for key, torque in tried.items()):
+            break
+        more = _tried(hunt, asked.unchecked_copy(tried)).found
+        if more is None:
+            too_much = tried
+        else:
+            found = more
+    return found
+
+
+def _between(fits: float, too_much: float) -> float:
+    """A torque between one that fits and one that is too much; the former where they are close."""
+    if too_much <= _NEAR * fits:
+        return fits
+    return max(rounded_down(math.sqrt(fits * too_much)), fits)
 
 
 def _what_the_judged_has(

@@ -45,6 +45,7 @@ def said(monkeypatch, bears, verdict, given=ASKED, first=("BEARING-STATIC",), le
         return answer
 
     monkeypatch.setattr(nearest, "searched", searched)
+    monkeypatch.setattr(nearest, "_more_again", lambda _, found: found)
     monkeypatch.setattr(nearest, "both_bearable", lambda _: 1.0)
     sound = SimpleNamespace(worth=(False, 1.0))
     monkeypatch.setattr(
@@ -226,6 +227,35 @@ def test_what_the_motor_reaches_is_tried_as_it_is(monkeypatch):
         nearest._less_torque(hunt, short)
     assert len(peaks) == 4
     assert all(free for *_, free in peaks[2:])
+
+
+@pytest.mark.parametrize(("bears", "holds"), [(23.0, 9.0), (44.9, 3.0), (15.0, 2.2), (30.0, 4.1)])
+def test_torques_that_are_told_are_nearly_the_most(monkeypatch, bears, holds):
+    """Those that a search lowered from stated ones are raised again: it goes down in strides."""
+    asked = requirements_from_mapping(ASKED)
+    tried = []
+
+    def way(hunt, own):
+        tried.append((own.peak_torque, own.continuous_torque))
+        fits = own.peak_torque <= bears and own.continuous_torque <= holds
+        torques = {"peak_torque": own.peak_torque, "continuous_torque": own.continuous_torque}
+        return nearest._Way(hunt, found(**torques) if fits else None, None)
+
+    monkeypatch.setattr(nearest, "_tried", way)
+    hunt = new_hunt(asked, lambda _: None, None, None, "mass")
+    low = found(peak_torque=15.0, continuous_torque=2.0)
+    most = nearest._more_again(hunt, low).sizing.design.requirements
+    assert 15.0 <= most.peak_torque <= bears
+    assert 2.0 <= most.continuous_torque <= holds
+    # One of both binds; strides are halved as often as is worth while.
+    assert max(most.peak_torque / bears, most.continuous_torque / holds) > 0.92
+    assert 1 <= len(tried) <= nearest._RISES
+    assert all(peak < 45.0 and lasting < 6.0 for peak, lasting in tried)
+    # A torque that nobody stated is no aim.
+    free = replace(hunt, requirements=asked.deriving("continuous_torque"))
+    tried.clear()
+    nearest._more_again(free, low)
+    assert {lasting for _, lasting in tried} == {free.requirements.continuous_torque}
 
 
 def test_torques_that_nobody_stated_are_not_looked_for(monkeypatch):
