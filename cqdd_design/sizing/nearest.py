@@ -1,9 +1,9 @@
 """The nearest requirements that fit where some do not, each borne out by the whole verdict.
 
 In each direction by itself. Torques are lowered as those are that nobody stated, and raised again
-while more fits. A larger ring or
-longer discs are looked for by the equilibrium, with the reserve that part errors were found to
-take; what is told has been searched to the verdict just as whoever asks for it would.
+while more fits. A larger ring or longer discs are looked for by the equilibrium, with the reserve
+that part errors were found to take; what is told has been searched to the verdict just as whoever
+asks for it would.
 """
 
 from __future__ import annotations
