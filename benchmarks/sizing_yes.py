@@ -174,7 +174,8 @@ def looked_at(row: Row, *, short: bool) -> tuple[str, bool]:
         return f"{text}, {torques}; {other or 'all agree'}", not other
 
 
-def _numbers(text: str) -> Iterator[int]:
+def numbers(text: str) -> Iterator[int]:
+    """Of a list of numbers and ranges, as 4-7,12."""
     for part in filter(None, text.split(",")):
         first, _, last = part.partition("-")
         yield from range(int(first), int(last or first) + 1)
@@ -187,7 +188,7 @@ def main() -> None:
     parser.add_argument("--seeds", default="0-59")
     parser.add_argument("--short", action="store_true")
     given = parser.parse_args()
-    rows = [*map(of_ratio, _numbers(given.ratios)), *map(of_seed, _numbers(given.seeds))]
+    rows = [*map(of_ratio, numbers(given.ratios)), *map(of_seed, numbers(given.seeds))]
     broken = 0
     for row in rows:
         text, kept = looked_at(row, short=given.short)

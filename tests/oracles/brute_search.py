@@ -7,7 +7,9 @@ theirs would be, and asked what its own checks and the contact equilibrium say.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Any, NamedTuple
 
 import numpy as np
 from contact_designs import PIN_DIAMETERS
@@ -23,6 +25,7 @@ from cqdd_design.machine import resolve
 from cqdd_design.machine.capacity import LoadedContacts
 
 _RANDOM, _STEPS = 500, 300
+_NOTHING: Mapping[str, str] = MappingProxyType({})
 _LOADS = ("CONTACT-", "PIN-", "BEARING-")
 
 
@@ -37,6 +40,12 @@ class Space(NamedTuple):
     peak_torque: float
     continuous_torque: float
     life_hours: float
+    speed: str = "300 rpm"
+    motor: str = "CubeMars RO100 KV55"
+    tables: Mapping[str, object] = _NOTHING
+    """Of the design file: a motor of one's own, environment."""
+    clearances: tuple[str, str] | None = None
+    """Of the profile and of the output pins' holes."""
 
     def times(self, factor: float) -> Space:
         """The same with other torques."""
@@ -51,7 +60,8 @@ class Space(NamedTuple):
             "ratio": self.ratio,
             "peak_torque": f"{self.peak_torque} N*m",
             "continuous_torque": f"{self.continuous_torque} N*m",
-            "continuous_speed": "300 rpm",
+            "continuous_speed": self.speed,
+            "motor": self.motor,
             "outer_diameter": f"{self.outer_diameter} m",
             "length": f"{self.length} m",
             "life": f"{self.life_hours} h",
@@ -88,9 +98,10 @@ def drawn_design(space: Space, place: np.ndarray) -> Design | None:
         return None
     rows.sort(key=lambda row: row.static_rating or 0.0)
     bearing = rows[min(int(place[7] * len(rows)), len(rows) - 1)]
-    mapping = {
+    mapping: dict[str, Any] = {
         "name": "by-chance",
         "requirements": space.requirements,
+        **space.tables,
         "reducer": {
             "ratio": n,
             "ring_pitch_radius": f"{pitch:.6f} m",
@@ -110,6 +121,10 @@ def drawn_design(space: Space, place: np.ndarray) -> Design | None:
             "ring": {"outer_diameter": f"{space.outer_diameter} m"},
         },
     }
+    if space.clearances is not None:
+        profile, holes = space.clearances
+        mapping["reducer"]["modification"] = {"equidistant": profile}
+        mapping["reducer"]["output_pins"]["hole_clearance"] = holes
     try:
         return Design.from_mapping(mapping)
     except DesignError:
@@ -146,6 +161,20 @@ class Strong(NamedTuple):
 
 def strongest(space: Space, seed: int) -> Strong | None:
     """The design with the most reserve that chance leads to, and the torques that it bears."""
+    place = strongest_place(space, seed)
+    if place is None:
+        return None
+    low, high = 0.01, 20.0
+    for _ in range(12):
+        middle = math.sqrt(low * high)
+        low, high = (middle, high) if _at(space, place, middle) >= 1.0 else (low, middle)
+    borne = space.times(low)
+    design = drawn_design(borne, place)
+    return None if design is None or reserve(design) < 1.0 else Strong(borne, design)
+
+
+def strongest_place(space: Space, seed: int) -> np.ndarray | None:
+    """The place in the unit cube, (8,), of the design with the most reserve."""
     draw = np.random.default_rng(seed)
     most, place = 0.0, None
     for turn in range(_RANDOM + _STEPS):
@@ -158,15 +187,7 @@ def strongest(space: Space, seed: int) -> Strong | None:
         value = _at(space, tried, 1.0)
         if value > most:
             most, place = value, tried
-    if place is None:
-        return None
-    low, high = 0.01, 20.0
-    for _ in range(12):
-        middle = math.sqrt(low * high)
-        low, high = (middle, high) if _at(space, place, middle) >= 1.0 else (low, middle)
-    borne = space.times(low)
-    design = drawn_design(borne, place)
-    return None if design is None or reserve(design) < 1.0 else Strong(borne, design)
+    return place
 
 
 def _at(space: Space, place: np.ndarray, times: float) -> float:
