@@ -90,6 +90,13 @@ def _analysed(
     )
 
 
+def stress_under(
+    lowered: Machine, line_model: LineModel = "palmgren", friction: FrictionChoice = "drive"
+) -> BodyStrength:
+    """Stress of a machine at other torques, which is not kept: nobody else asks for it."""
+    return _analysed.__wrapped__(lowered, None, line_model, friction)
+
+
 def no_stress(machine: Machine, why: str) -> str:
     """A sentence on bodies whose stress is not known."""
     rigid = ", which count as rigid in the equilibrium" if machine.bodies is None else ""
@@ -112,9 +119,7 @@ def judged_bodies(
         return found, strength
 
     def at(lowered: Machine) -> tuple[Check, ...]:
-        # Not kept: nobody else asks for it.
-        stressed = _analysed.__wrapped__(lowered, None, line_model, friction)
-        return body_checks(lowered.design, stressed)
+        return body_checks(lowered.design, stress_under(lowered, line_model, friction))
 
     asked = machine.design.requirements
     peak = [line for line in found if line.id.endswith("-STRESS")]

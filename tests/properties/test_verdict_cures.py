@@ -9,20 +9,24 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.specimen import AS_DRAWN
 from cqdd_design.design import Design, load_design
+from cqdd_design.gearbox.checks.bodies import body_checks
 from cqdd_design.machine import Machine, resolve
-from cqdd_design.machine.body_analysis import judged_bodies
+from cqdd_design.machine.body_analysis import judged_bodies, stress_under
 from cqdd_design.machine.carrying import torque_limits
 from cqdd_design.machine.cures import torques_that_hold
 from cqdd_design.results import Check
 from cqdd_design.verdict.creep_lines import creep_lines
+from cqdd_design.verdict.joint_lines import joint_lines
 from cqdd_design.verdict.lines import _carried
 from cqdd_design.verdict.motor import motor_lines
+from cqdd_design.verdict.reached import PEAK_LINES, standing_torque
 from cqdd_design.verdict.screw_lines import screw_lines
 from cqdd_design.verdict.shaft_lines import shaft_lines
 
@@ -82,7 +86,7 @@ def test_lines_of_shaft_and_screws_hold_at_the_torque_that_they_name(paper):
     """Forces on the shaft are not in proportion to the torque, nor is the rotor's weight."""
     lines = (*shaft_lines(resolve(paper)), *screw_lines(resolve(paper)))
     failing = {one.id: one.remedy for one in lines if _LOWER.search(one.remedy)}
-    assert set(failing) == {"SUPPORT-STATIC", "SCREW-SLIP"}
+    assert set(failing) == {"SUPPORT-STATIC", "OUTPUT-STATIC", "SCREW-SLIP"}
     for check_id, remedy in failing.items():
         torque = float(_LOWER.search(remedy)[2])
         for share, status in ((1.0, "pass"), (1.05, "fail")):
@@ -91,6 +95,74 @@ def test_lines_of_shaft_and_screws_hold_at_the_torque_that_they_name(paper):
             machine = resolve(paper.replacing(changes))
             told = {one.id: one for one in (*shaft_lines(machine), *screw_lines(machine))}
             assert told[check_id].status == status, (check_id, share)
+
+
+def _peak_lines(machine: Machine) -> dict[str, Check]:
+    lines = (*shaft_lines(machine), *screw_lines(machine), *joint_lines(machine, None))
+    return {one.id: one for one in lines if one.id in PEAK_LINES}
+
+
+@pytest.mark.parametrize(
+    "check_id",
+    ["SUPPORT-STATIC", "OUTPUT-STATIC", "DOWEL-SHEAR", "DOWEL-BEARING", "SCREW-SLIP"],
+)
+def test_the_peak_torque_of_the_first_screen_is_one_at_which_a_line_holds(paper_lines, check_id):
+    """External loads and the rotor's pull do not go down with the torque."""
+    machine, lines = paper_lines
+    evidence = SimpleNamespace(machine=machine, temperatures=None)
+    torque, basis = standing_torque(evidence, [lines[check_id]], 250.0)
+    assert basis == f"{lines[check_id].title}: {lines[check_id].basis}"
+    if lines[check_id].status == "fail" and check_id in ("SUPPORT-STATIC", "OUTPUT-STATIC"):
+        told = float(_LOWER.search(lines[check_id].remedy)[2])
+        assert torque == pytest.approx(told, rel=0.01)
+    for share, status in ((1.0, "pass"), (1.02, "fail")):
+        there = _peak_lines(machine.loaded(share * torque))
+        assert there[check_id].status == status, share
+
+
+def test_bodies_limit_the_peak_torque_of_the_first_screen(paper_design_file):
+    weak = {"reducer.disc_material": "7075-T6", "reducer.output_pins.circle_radius": 24.4e-3}
+    design = load_design(paper_design_file.with_name("reference-s.toml"))
+    machine = resolve(design.replacing(weak))
+    lines = body_checks(machine.design, stress_under(machine))
+    evidence = SimpleNamespace(machine=machine, temperatures=None)
+    torque, basis = standing_torque(evidence, lines, 150.0)
+    (line,) = (one for one in lines if basis.startswith(one.title))
+    for share, status in ((1.0, "pass"), (1.02, "fail")):
+        loaded = machine.loaded(share * torque)
+        there = {one.id: one for one in body_checks(loaded.design, stress_under(loaded))}
+        assert there[line.id].status == status, share
+
+
+@pytest.fixture(scope="module")
+def paper_lines(paper) -> tuple[Machine, dict[str, Check]]:
+    """Of the paper's machine with loads from outside, in a bearing that is named."""
+    seat = resolve(paper).seats[1].bearing.designation
+    outside = {"requirements.external_moment": 5.0, "requirements.external_axial": 200.0}
+    named = {"reducer.carrier_bearing.designation": seat}
+    machine = resolve(paper.replacing({**outside, **named}))
+    return machine, _peak_lines(machine)
+
+
+def test_needles_limit_the_peak_torque_of_the_first_screen(paper_design_file):
+    design = load_design(paper_design_file.parents[1] / "docs" / "gallery" / "efficient-10.toml")
+    machine = resolve(design)
+    line = _carried(machine)["SLEEVE-STATIC"]
+    evidence = SimpleNamespace(machine=machine, temperatures=None)
+    torque, basis = standing_torque(evidence, [line], 400.0)
+    assert basis.startswith(line.title)
+    for share, status in ((1.0, "pass"), (1.02, "fail")):
+        lowered = machine.under(peak=share * torque)
+        assert _carried(lowered)["SLEEVE-STATIC"].status == status, share
+
+
+def test_what_no_torque_cures_lets_none_through(paper):
+    machine = resolve(paper.replacing({"requirements.external_moment": 300.0}))
+    line = next(one for one in screw_lines(machine) if one.id == "SCREW-SLIP")
+    evidence = SimpleNamespace(machine=machine, temperatures=None)
+    torque, basis = standing_torque(evidence, [line], 50.0)
+    assert torque == 0.0
+    assert "at no torque" in basis
 
 
 def test_shaft_that_tires_under_a_duty_speaks_of_the_duty(paper):
