@@ -17,10 +17,12 @@ from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.specimen import AS_DRAWN
 from cqdd_design.design import Design, load_design
 from cqdd_design.gearbox.checks.bodies import body_checks
+from cqdd_design.gearbox.checks.heat import cooling_remedy
 from cqdd_design.machine import Machine, resolve
-from cqdd_design.machine.body_analysis import judged_bodies, stress_under
+from cqdd_design.machine.body_analysis import analyse_bodies, judged_bodies, stress_under
 from cqdd_design.machine.carrying import torque_limits
 from cqdd_design.machine.cures import torques_that_hold
+from cqdd_design.machine.temperatures import enough_cooling, judged_temperatures
 from cqdd_design.results import Check
 from cqdd_design.verdict.creep_lines import creep_lines
 from cqdd_design.verdict.joint_lines import joint_lines
@@ -230,6 +232,85 @@ def test_motor_peak_names_what_binds_and_the_value_that_lets_it(paper):
     told = float(re.search(r"motor\.current_limit .* to about ([\d.]+) A", short.remedy)[1])
     assert line(motor__current_limit=told, **weak).status == "pass"
     assert line(motor__current_limit=0.97 * told, **weak).status == "fail"
+
+
+@pytest.mark.parametrize("name", ["cqdd-10", "reference-s"])
+def test_the_cooling_that_is_named_is_enough(paper_design_file, name):
+    """By what is lost before parts are warm it was 0.21 and 0.29 K/W."""
+    design = load_design(paper_design_file.with_name(f"{name}.toml"))
+    found = judged_temperatures(resolve(design))[0]
+    told = float(f"{enough_cooling(found):.3g}")
+    for share, status in ((0.999, "pass"), (1.04, "fail")):
+        cooled = resolve(design.replacing({"drive.thermal_resistance": share * told}))
+        rise = judged_temperatures(cooled)[1][0]
+        assert (rise.id, rise.status) == ("THERMAL-RISE", status), share
+        assert 0.95 < rise.margin < 1.05
+
+
+def test_cooling_that_nothing_reaches_is_told():
+    assert "no cooling is enough" in cooling_remedy(0.0)
+    assert "0.333 K/W" in cooling_remedy(0.33399)
+    assert "torques or speeds of the duty" in cooling_remedy(0.3, duty=True)
+    assert "continuous_torque" in cooling_remedy()
+
+
+@pytest.mark.parametrize("torque", [0.5, 2.0])
+def test_bodies_tire_by_the_greatest_torque_of_a_duty(paper_design_file, torque):
+    """Not by the continuous one, which nobody asks for then."""
+    design = load_design(paper_design_file.with_name("reference-s.toml"))
+    asked = design.requirements
+    duty = [{"torque": -torque * asked.continuous_torque, "speed": 10.0, "share": 0.4},
+            {"torque": 3.0, "speed": 20.0, "share": 0.6}]  # fmt: skip
+    machine = resolve(
+        design.replacing({"requirements.duty": duty, "requirements.peak_torque": 90.0})
+    )
+    lines = {one.id: one for one in body_checks(machine.design, analyse_bodies(machine))}
+    usual = machine.given.replacing(
+        {
+            "requirements.duty": [],
+            "requirements.continuous_torque": torque * asked.continuous_torque,
+        }
+    )
+    alone = resolve(usual)
+    same = {one.id: one for one in body_checks(alone.design, analyse_bodies(alone))}
+    for name in ("LIGAMENT-FATIGUE", "ROOT-FATIGUE", "RING-FATIGUE"):
+        assert f"at {torque * asked.continuous_torque:g} N*m, the greatest of the duty" in (
+            lines[name].substituted
+        )
+    # Of the ring, which is pressed one way, the same stress; discs also see the other sense.
+    assert lines["RING-FATIGUE"].value >= 0.999 * same["RING-FATIGUE"].value
+
+
+def test_closed_forms_name_the_torque_that_they_judge(paper):
+    """Under a duty that is the continuous one, which the duty leaves nobody to ask for."""
+    duty = [{"torque": 40.0, "speed": 13.0, "share": 1.0}]
+    for changes, words in (
+        ({}, "lower the continuous torque to "),
+        ({"requirements.duty": duty}, "lower the continuous torque (this screen's; `check` judges"),
+    ):
+        lines = {one.id: one for one in resolve(paper.replacing(changes)).analysis.checks}
+        for name in ("CONTACT-RING-CONTINUOUS", "PIN-BENDING-CONTINUOUS", "BEARING-LIFE",
+                     "MOTOR-CONTINUOUS"):  # fmt: skip
+            assert words in lines[name].remedy, name
+        assert "(with it the continuous torque)" in lines["PIN-BENDING-PEAK"].remedy
+
+
+def test_a_peak_torque_below_the_continuous_one_takes_that_along(paper):
+    deep = paper.replacing({"requirements.peak_torque": 900.0,
+                            "requirements.continuous_torque": 400.0})  # fmt: skip
+    machine = resolve(deep)
+    reach = _carried(machine)["CONTACT-REACH"]
+    assert re.search(r"lower requirements.peak_torque to [\d.]+ N\*m \(with it the", reach.remedy)
+    less = resolve(deep.replacing({"requirements.continuous_torque": 10.0}))
+    assert "with it" not in _carried(less)["CONTACT-REACH"].remedy
+    for steady, words in ((100.0, "(with it the continuous torque)"), (10.0, "")):
+        asked = {"requirements.peak_torque": 120.0, "requirements.continuous_torque": steady}
+        machine = resolve(paper.replacing(asked))
+        actuator = actuator_parameters(resolve(paper), AS_DRAWN)
+        line = next(o for o in motor_lines(machine, actuator, "") if o.id == "MOTOR-PEAK")
+        assert line.status == "fail"
+        assert words in line.remedy
+        assert ("with it" in line.remedy) == bool(words)
 
 
 @pytest.mark.parametrize(
