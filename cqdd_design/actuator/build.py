@@ -127,6 +127,7 @@ def actuator_parameters(
         gear=gear,
         mass=inertia.mass,
         origins=origins,
+        seed=specimen.seed,
     )
     return apply_factors(computed, specimen.factors)
 

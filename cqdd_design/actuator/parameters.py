@@ -19,6 +19,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from cqdd_design.actuator.fitted_under import FittedUnder
 from cqdd_design.actuator.rig import SENSOR_TWIST, RigParameters
 from cqdd_design.catalog.motors import WINDING_MOST
 from cqdd_design.errors import DesignError
@@ -358,6 +359,10 @@ class ActuatorParameters:
         "calibrated", with a remark.
     fitted : tuple of str
         Measurements of the bench that values were fitted to, so that they predict nothing.
+    fitted_under : FittedUnder or None
+        What these were measured under; None where that is not known, or nothing is fitted.
+    seed : int or None
+        Of the gearbox drawn from the tolerances; None for perfect parts.
     rig : RigParameters
         Of the bench that it is held on.
     """
@@ -371,6 +376,8 @@ class ActuatorParameters:
     mass: float
     origins: dict[str, str] = field(default_factory=dict)
     fitted: tuple[str, ...] = ()
+    fitted_under: FittedUnder | None = None
+    seed: int | None = None
     rig: RigParameters = field(default_factory=RigParameters)
 
     def __post_init__(self) -> None:

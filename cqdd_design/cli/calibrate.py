@@ -63,7 +63,7 @@ def calibrate(
     """Fit friction and cooling to measured rows; predict the rest."""
     from cqdd_design.actuator.bench.calibration_file import write_calibration
     from cqdd_design.actuator.bench.measured import read_measured
-    from cqdd_design.files import refuse_overwrite
+    from cqdd_design.files import kind_by_ending, refuse_overwrite
     from cqdd_design.roads.calibrate import calibrate as fitted
     from cqdd_design.units import STIFFNESS_GAIN, VOLTAGE
 
@@ -71,6 +71,7 @@ def calibrate(
     rows = None if measured is None else read_measured(measured)
     loaded = read_design(out, design, motor, motor_file)
     if path is not None:
+        kind_by_ending(path, ("json",), "calibration")
         refuse_overwrite(path, force=force)
     out.compile_ahead(loaded, simulation=True)
     found = fitted(
@@ -94,7 +95,7 @@ def calibrate(
 def _lines(found: Calibration) -> list[str]:
     from cqdd_design.actuator.bench.unknowns import UNKNOWNS
 
-    rows = []
+    rows, under = [], found.factors.under
     for row in found.rows:
         rows.append(
             [
@@ -130,5 +131,6 @@ def _lines(found: Calibration) -> list[str]:
         table(fitted, head=["unknown", "is", "within", ""]),
         "",
         *folded(told),
+        *([] if under is None else folded(f"Measured under {under.told}.")),
     ]
     return lines

@@ -39,7 +39,7 @@ def new(
 ) -> None:
     """Write a file to start from: a template with every key, or an example design."""
     from cqdd_design.design import templates
-    from cqdd_design.files import refuse_overwrite, write_atomically
+    from cqdd_design.files import kind_by_ending, refuse_overwrite, write_atomically
 
     if (kind is None) == (example is None):
         raise UsageError(
@@ -55,6 +55,7 @@ def new(
         name, text, says = f"{example}.toml", templates.example_text(example), "an example design"
     path = project_folder() / name if target is None else target
     refuse_overwrite(path, force=force)
+    kind_by_ending(path, (Path(name).suffix[1:],), Path(name).stem)
     written = write_atomically(path, text, "template" if example is None else "design")
     out.wrote([written])
     out.document({"kind": kind, "example": example, "says": says}, files=[written])

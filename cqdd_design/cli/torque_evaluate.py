@@ -50,15 +50,16 @@ def evaluate(
     force: Force = False,
 ) -> None:
     """Score networks and baselines on held-out episodes, with intervals, beside the paper."""
-    from cqdd_design.files import refuse_overwrite, write_atomically
+    from cqdd_design.files import kind_by_ending, refuse_overwrite, write_atomically
     from cqdd_design.torque.data.episodes import read_data
     from cqdd_design.torque.evaluation.behaviour import Effort
     from cqdd_design.torque.evaluation.documents import result_dict
     from cqdd_design.torque.evaluation.evaluate import evaluate as measure
     from cqdd_design.torque.evaluation.lineup import line_up, read_networks
 
-    for target in (report, markdown):
+    for target, kind in ((report, "html"), (markdown, "md")):
         if target is not None:
+            kind_by_ending(target, (kind,), "evaluation")
             refuse_overwrite(target, force=force)
     refuse_without_design(
         design, {"--calibration": calibration, "--motor": motor, "--motor-file": motor_file}

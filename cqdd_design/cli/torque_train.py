@@ -114,7 +114,7 @@ def train(
     force: Force = False,
 ) -> None:
     """Train a torque network, with a checkpoint after every epoch."""
-    from cqdd_design.files import refuse_overwrite
+    from cqdd_design.files import kind_by_ending, refuse_overwrite
     from cqdd_design.torque.data.episodes import read_data
     from cqdd_design.torque.data.splits import audit, split
     from cqdd_design.torque.networks.artefact import read_artefact, write_artefact
@@ -143,6 +143,7 @@ def train(
     place = target or output_folder("exports") / f"{chosen.name}-seed-{seed}.npz"
     kept = place.with_suffix(".checkpoint.npz")
     if target is not None:
+        kind_by_ending(target, ("npz",), chosen.name)
         refuse_overwrite(place, force=force)
     if kept.exists() and not (resume or force):
         raise UsageError(

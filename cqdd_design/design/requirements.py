@@ -291,6 +291,12 @@ class Requirements(FrozenModel):
 
         return tuple(DutyPoint.model_construct(**case._asdict()) for case in load_cases(log))
 
+    @property
+    def lasting_torque(self) -> float:
+        """Greatest size of a torque of the duty, or without one the continuous torque, N m."""
+        cases = self.load_cases
+        return max((abs(one.torque) for one in cases), default=self.continuous_torque)
+
     def with_duty_log(self, log: DutyLog | None) -> Requirements:
         """The same requirements with what their duty's file says."""
         changed = self.model_copy()

@@ -9,7 +9,7 @@ import os
 import stat
 import tempfile
 import unicodedata
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -84,6 +84,34 @@ def refuse_overwrite(path: Path, *, force: bool) -> None:
         raise UsageError(
             f"{path} exists already; add --force to replace it or choose another --out."
         )
+
+
+def kind_by_ending(path: Path, kinds: Sequence[str], stem: str, asked: str = "") -> str:
+    """Kind of a file by its ending, of those that are written.
+
+    Parameters
+    ----------
+    kinds : sequence of str
+        Endings without their dot.
+    stem : str
+        A name for a path that has none but an ending.
+    asked : str
+        The kind to name; default the first.
+
+    Raises
+    ------
+    UsageError
+        For another ending, with the nearest name: what a file holds is what it is called.
+    """
+    kind = path.suffix.lower().removeprefix(".")
+    if kind in kinds:
+        return kind
+    nearest = path.parent / f"{path.stem or stem}.{asked or kinds[0]}"
+    endings = [f".{one}" for one in kinds]
+    told = f"does not end in {endings[0]}"
+    if endings[1:]:
+        told = f"ends neither in {' nor in '.join(endings)}"
+    raise UsageError(f"{path} {told}; name it {nearest}.")
 
 
 def _replaceable(path: Path) -> Path:

@@ -271,7 +271,7 @@ def calibrate(
     """
     from cqdd_design.actuator.bench.calibration_file import write_calibration
     from cqdd_design.actuator.bench.measured import in_bench_units, read_measured
-    from cqdd_design.files import refuse_overwrite
+    from cqdd_design.files import kind_by_ending, refuse_overwrite
     from cqdd_design.roads.calibrate import calibrate as fit
     from cqdd_design.roads.telling import silent
     from cqdd_design.units import STIFFNESS_GAIN, VOLTAGE
@@ -283,6 +283,7 @@ def calibrate(
         rows = read_measured(path_of("measured", measured))
     target = None if out is None else path_of("out", out)
     if target is not None:
+        kind_by_ending(target, ("json",), "calibration")
         refuse_overwrite(target, force=force)
     loaded = design_of(design)
     specimen, _ = specimen_given(loaded, seed, None)
@@ -311,7 +312,9 @@ def specimen_given(
         fitted = replace(found, factors=calibration.found.factors)
         if calibration.design.sha256 == design.sha256:
             return fitted, ()
-        return fitted, (
+        other = f"another design ({calibration.design.name})"
+        elsewhere = calibration.found.factors.fitted_to(other)
+        return replace(fitted, factors=elsewhere), (
             f"the calibration is of another design ({calibration.design.name}) or another state "
             "of this one; its factors are applied all the same.",
         )

@@ -37,7 +37,7 @@ def analyse_bodies(
     ----------
     torque : float, optional
         Output torque, N m. Where left out, peaks are those at the peak torque of the requirements,
-        cycles those at the continuous one.
+        cycles those at the greatest torque of the duty, without one at the continuous torque.
     line_model : {"palmgren", "johnson", "linear"}
         Approach of teeth and pins.
     friction : {"drive", "backdrive", "off"}
@@ -65,7 +65,7 @@ def _analysed(
     model = machine.contact if usual else machine.contact_by(line_model)
     asked = design.requirements
     peak = asked.peak_torque if torque is None else torque
-    steady = asked.continuous_torque if torque is None else torque
+    steady = machine.duty_share * asked.lasting_torque if torque is None else torque
     # Fewer columns than pins: several of these periods until a place has met all of its forces.
     periods = round(model.period / mesh_period(model.lobe_count, model.pin_count))
     states = nominal_states(model, perfect_angles(model, periods * _ANGLES))
@@ -90,6 +90,13 @@ def _analysed(
     )
 
 
+def stress_under(
+    lowered: Machine, line_model: LineModel = "palmgren", friction: FrictionChoice = "drive"
+) -> BodyStrength:
+    """Stress of a machine at other torques, which is not kept: nobody else asks for it."""
+    return _analysed.__wrapped__(lowered, None, line_model, friction)
+
+
 def no_stress(machine: Machine, why: str) -> str:
     """A sentence on bodies whose stress is not known."""
     rigid = ", which count as rigid in the equilibrium" if machine.bodies is None else ""
@@ -112,9 +119,7 @@ def judged_bodies(
         return found, strength
 
     def at(lowered: Machine) -> tuple[Check, ...]:
-        # Not kept: nobody else asks for it.
-        stressed = _analysed.__wrapped__(lowered, None, line_model, friction)
-        return body_checks(lowered.design, stressed)
+        return body_checks(lowered.design, stress_under(lowered, line_model, friction))
 
     asked = machine.design.requirements
     peak = [line for line in found if line.id.endswith("-STRESS")]
@@ -122,8 +127,8 @@ def judged_bodies(
     cures = torques_that_hold(
         lambda torque: at(machine.under(peak=torque)), asked.peak_torque, peak, near=ROUGHLY
     ) | torques_that_hold(
-        lambda torque: at(machine.under(continuous=torque)),
-        asked.continuous_torque,
+        lambda share: at(machine.under(duty_share=share)),
+        1.0,
         lasting,
         near=ROUGHLY,
     )

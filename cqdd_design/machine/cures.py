@@ -17,11 +17,11 @@ Checks = Iterable[Check]
 
 _LOOKS = 14
 """Torques that are tried for a line; four to six do."""
-_FEW_LOOKS = 7
+_FEW_LOOKS = 8
 """The same where a look costs much."""
 _NEAR = 1e-3
 """Of a limit, how much may be left of it."""
-ROUGHLY = 0.02
+ROUGHLY = 5e-3
 """The same where a look costs much."""
 SEARCHED_CASES = 8
 """Cases of a duty up to which a share of its torques is looked for."""

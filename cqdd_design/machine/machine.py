@@ -160,6 +160,15 @@ class Machine:
         vars(other).update(contact=self.contact, bodies=self.bodies)
         return other
 
+    def loaded(self, peak: float) -> Machine:
+        """The machine under another peak torque, N m, laid out as it is: dowels, screws, bearings.
+
+        `under` is laid out anew. GeometryError as `layout`.
+        """
+        other = self.under(peak=peak)
+        vars(other).update(seats=self.seats, layout=self.layout)
+        return other
+
     @property
     def cooling(self) -> Cooling:
         """From winding to ambient, as the design's drive or its motor's data state it."""

@@ -32,6 +32,7 @@ from cqdd_design.gearbox.precision.backlash import Backlash, backlash
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.limits import rounded_up
 from cqdd_design.machine.cooling import cooled_network, two_nodes
+from cqdd_design.machine.cures import torques_that_hold
 from cqdd_design.machine.duty_heat import DutyHeat, duty_cases, duty_heat, logged_heat
 from cqdd_design.machine.heat_nodes import NODES, Node, by_node
 from cqdd_design.machine.machine import Machine
@@ -54,6 +55,10 @@ _TRIED = (1.5, 3.0, 6.0)
 """Of what a clearance lacks at least, what is tried as a remedy."""
 _LOOKS, _FEW_LOOKS = 6, 3
 """States on the way from the coldest start at which clearances are looked at; with rigid bodies."""
+
+
+_NEAR_ENOUGH = 2e-2
+"""Of a limit of temperature, how much may be left of it where cooling is looked for."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -307,11 +312,8 @@ def heat_checks(found: MachineTemperatures) -> tuple[Check, ...]:
     DesignError
         When the thermal expansion of a part is not known.
     """
-    heat, as_drawn = (
-        float(one.heat.at(found.steady).sum()) for one in (found.duty, found.as_drawn)
-    )
     checks = (
-        rise_check(_parts(found), found.network.ambient, heat, as_drawn),
+        _rise(found),
         clearance_check(_added_overlaps(found), lambda: _remedy(found)),
     )
     if not found.cold:
@@ -320,6 +322,27 @@ def heat_checks(found: MachineTemperatures) -> tuple[Check, ...]:
     return tuple(
         replace(one, value=None, substituted=found.cold) if one.satisfied else one for one in checks
     )
+
+
+def _rise(found: MachineTemperatures) -> Check:
+    heat, as_drawn = (
+        float(one.heat.at(found.steady).sum()) for one in (found.duty, found.as_drawn)
+    )
+    return rise_check(_parts(found), found.network.ambient, heat, as_drawn)
+
+
+def enough_cooling(found: MachineTemperatures) -> float:
+    """The stated resistance (K/W) up to which no part gets too warm; 0 where there is none."""
+    machine, now = found.machine, sum(two_nodes(found.network)[:2])
+
+    def at(resistance: float) -> tuple[Check, ...]:
+        stated = machine.changed({"drive.thermal_resistance": resistance})
+        vars(stated).update(contact=machine.contact, bodies=machine.bodies)
+        cooled = machine_temperatures(stated)
+        return () if cooled.cold else (_rise(cooled),)
+
+    (enough,) = torques_that_hold(at, now, (_rise(found),), every=True, near=_NEAR_ENOUGH).values()
+    return enough
 
 
 def _parts(found: MachineTemperatures) -> tuple[WarmPart, ...]:

@@ -17,7 +17,7 @@ from cqdd_design.catalog.paper import is_papers_actuator
 from cqdd_design.design import Design
 from cqdd_design.environment import output_folder
 from cqdd_design.errors import ContactError, UsageError, shown
-from cqdd_design.files import WrittenFile, refuse_overwrite, write_atomically
+from cqdd_design.files import WrittenFile, kind_by_ending, refuse_overwrite, write_atomically
 from cqdd_design.gearbox.checks.allowables import YIELD_SAMPLES
 from cqdd_design.gearbox.tolerance.clearance import ClearancePoint, clearance_study
 from cqdd_design.machine import Machine
@@ -61,15 +61,12 @@ def report_form(text: str | None, path: Path | None) -> ReportForm:
         raise UsageError(f"--format {shown(text)}: a report is html or pdf.")
     if path is None:
         return asked or "html"
-    ending = path.suffix.lower()
-    named = next((form for form in forms if ending == f".{form}"), None)
-    nearest = path.parent / f"{path.stem or 'report'}.{asked or 'html'}"
-    if named is None:
-        raise UsageError(f"{path} ends neither in .html nor in .pdf; name it {nearest}.")
+    kind = kind_by_ending(path, forms, "report", asked or "")
+    named = next(form for form in forms if form == kind)
     if asked not in (None, named):
         raise UsageError(
-            f"--format {asked} does not go into {path}, which ends in {ending}; name it {nearest}, "
-            "or leave --format out."
+            f"--format {asked} does not go into {path}, which ends in .{named}; name it "
+            f"{path.with_suffix(f'.{asked}')}, or leave --format out."
         )
     return named
 

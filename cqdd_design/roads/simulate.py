@@ -21,7 +21,7 @@ from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.design import Design
 from cqdd_design.environment import output_folder
 from cqdd_design.errors import DesignError, UsageError
-from cqdd_design.files import WrittenFile, refuse_overwrite, write_with
+from cqdd_design.files import WrittenFile, kind_by_ending, refuse_overwrite, write_with
 from cqdd_design.version import __version__
 
 
@@ -131,10 +131,7 @@ def simulation_kind(path: Path | None, *, force: bool = False) -> str:
     """Kind of a recording's file by its ending, npz or parquet; refuses what cannot be written."""
     if path is None:
         return "npz"
-    kind = path.suffix.lower().lstrip(".")
-    if kind not in ("npz", "parquet"):
-        nearest = path.parent / f"{path.stem or 'simulation'}.npz"
-        raise UsageError(f"{path} ends neither in .npz nor in .parquet; name it {nearest}.")
+    kind = kind_by_ending(path, ("npz", "parquet"), "simulation")
     refuse_overwrite(path, force=force)
     if kind == "parquet":
         require_pyarrow()

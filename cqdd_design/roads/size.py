@@ -18,7 +18,7 @@ from cqdd_design.design.motor_row import row_over
 from cqdd_design.environment import output_folder
 from cqdd_design.errors import UsageError
 from cqdd_design.exporting import export
-from cqdd_design.files import WrittenFile, refuse_overwrite
+from cqdd_design.files import WrittenFile, kind_by_ending, refuse_overwrite
 from cqdd_design.machine import resolve
 from cqdd_design.results import Check
 from cqdd_design.roads.sized_file import refuse_edited, refuse_judged, write_fresh
@@ -133,6 +133,7 @@ def size_and_write(
     target = path or default_path(requirements)
     if path is not None:
         refuse_overwrite(target, force=force)
+        kind_by_ending(target, ("toml",), "design")
     elif not force:
         refuse_edited(target)
         if quick:

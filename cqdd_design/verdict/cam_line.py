@@ -44,6 +44,12 @@ def cam_line(machine: Machine, warm: MachineTemperatures | None) -> Check | None
     return _judged(machine, cam, warm, peak, f"{_WIDER}; or {lower_peak(held[CAM_JOINT], lasting)}")
 
 
+def cam_at(machine: Machine, warm: MachineTemperatures | None) -> tuple[Check, ...]:
+    """The line without a search for a cure; none without such a cam. Errors as of `loose_cam`."""
+    cam, peak = loose_cam(machine), machine.design.requirements.peak_torque
+    return () if cam is None else (_judged(machine, cam, warm, peak),)
+
+
 def _judged(
     machine: Machine,
     cam: LooseCam,

@@ -4,16 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.specimen import Specimen
 from cqdd_design.errors import ContactError, CqddError, UsageError
 from cqdd_design.gearbox.bodies.strength import BodyStrength
+from cqdd_design.gearbox.checks.heat import cooling_remedy
 from cqdd_design.machine import Machine
 from cqdd_design.machine.body_analysis import judged_or_told
-from cqdd_design.machine.temperatures import MachineTemperatures, judged_temperatures
+from cqdd_design.machine.temperatures import (
+    MachineTemperatures,
+    enough_cooling,
+    judged_temperatures,
+)
 from cqdd_design.results import Check
 from cqdd_design.verdict.drawn import Drawn, drawn_gearboxes
 
@@ -88,7 +93,7 @@ def gather(
     # Gearboxes are drawn in compiled code, beside which all else has another core.
     with ThreadPoolExecutor(1) as beside:
         strained = beside.submit(judged_or_told, machine)
-        heat = beside.submit(judged_temperatures, machine)
+        heat = beside.submit(_heat, machine)
         motor = beside.submit(_actuator, machine, specimen)
         progress("drawing toleranced gearboxes, and judging heat and motor")
         try:
@@ -121,6 +126,18 @@ def _actuator(machine: Machine, specimen: Specimen) -> tuple[ActuatorParameters 
         return actuator_parameters(machine, specimen), ""
     except CqddError as error:
         return None, f"the actuator cannot be simulated: {error.message}"
+
+
+def _heat(
+    machine: Machine,
+) -> tuple[MachineTemperatures | None, tuple[Check, ...], tuple[str, ...]]:
+    """Temperatures with their checks, and the cooling that is enough where parts get too warm."""
+    warm, checks, told = judged_temperatures(machine)
+    if warm is None or machine.stiff or checks[0].status != "fail":
+        return warm, checks, told
+    duty = bool(machine.design.requirements.load_cases)
+    remedy = cooling_remedy(enough_cooling(warm), duty=duty)
+    return warm, (replace(checks[0], remedy=remedy), *checks[1:]), told
 
 
 def _drawn(machine: Machine, samples: int, sensitivity: bool) -> tuple[Drawn | None, str]:

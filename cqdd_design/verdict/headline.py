@@ -14,7 +14,7 @@ from cqdd_design.machine.carrying import carried_torque, carried_up_to
 from cqdd_design.results import Check, Status
 from cqdd_design.verdict.evidence import Evidence
 from cqdd_design.verdict.motor import MODEL as OPERATING
-from cqdd_design.verdict.shaft_lines import support_share
+from cqdd_design.verdict.reached import PEAK_LINES, standing_torque
 
 _RPM = 30.0 / math.pi
 _LIFE_LINES = (
@@ -27,12 +27,6 @@ _LIFE_LINES = (
     "SUPPORT-LIFE",
     "OUTPUT-LIFE",
 )
-_IN_PROPORTION = (
-    *("SHAFT-STRENGTH", "SUPPORT-STATIC", "OUTPUT-STATIC", "DOWEL-SHEAR", "DOWEL-BEARING"),
-    "SCREW-SLIP",
-    *("LIGAMENT-STRESS", "ROOT-STRESS", "RING-STRESS"),
-)
-"""Lines at the peak torque whose value goes with the torque as good as linearly."""
 
 
 @dataclass(frozen=True)
@@ -72,7 +66,7 @@ def headline(evidence: Evidence, lines: Sequence[Check]) -> tuple[Figure, ...]:
     by_id = {line.id: line for line in lines}
     machine = evidence.machine
     return (
-        _peak(machine, by_id["MOTOR-PEAK"], lines),
+        _peak(evidence, by_id["MOTOR-PEAK"], lines),
         _continuous(evidence, by_id),
         _life(machine, by_id),
         _asked(backlash(evidence), by_id.get("BACKLASH")),
@@ -114,34 +108,26 @@ def _continuous(evidence: Evidence, by_id: dict[str, Check]) -> Figure:
     return Figure(name, title, value, "N*m", None, heat.status, basis)
 
 
-def _peak(machine: Machine, motor: Check, lines: Sequence[Check]) -> Figure:
+def _peak(evidence: Evidence, motor: Check, lines: Sequence[Check]) -> Figure:
     """What motor and gearbox both reach."""
+    machine = evidence.machine
     required = machine.design.requirements.peak_torque
     title, name = "peak torque at standstill", "peak_torque"
     ways = [] if motor.value is None else [(motor.value, motor.basis)]
-    linear = [line for line in lines if line.id in _IN_PROPORTION]
-    ways += [
-        (required * _share(machine, line), f"{line.title}: {line.basis}, by proportion")
-        for line in linear
-        if line.known and line.margin < 1e6
-    ]
-    # What gives way beyond all of these is not looked for.
-    carried = carried_up_to(machine, min(ways)[0]) if ways else carried_torque(machine)
+    # What gives way beyond that is not looked for.
+    carried = carried_up_to(machine, ways[0][0]) if ways else carried_torque(machine)
     ways += [(one.torque, f"{one.words}: {one.model}") for one in carried.limits[:1]]
+    stood = standing_torque(evidence, lines, min(ways)[0] if ways else required)
+    ways += [] if stood is None else [stood]
     value, basis = min(ways, default=(None, motor.basis))
+    judged = [line for line in lines if line.id in PEAK_LINES]
     status: Status = "pass"
     if value is not None and value < required * (1.0 - 1e-9):
         status = "fail"
-    elif motor.value is None or carried.unknown or not all(line.known for line in linear):
+    elif motor.value is None or carried.unknown or not all(line.known for line in judged):
         # What is known reaches it, but something is not known.
         value, status = None, "unknown"
     return Figure(name, title, value, "N*m", required, status, basis)
-
-
-def _share(machine: Machine, line: Check) -> float:
-    """Of the peak torque, at which a line of `_IN_PROPORTION` is on its limit."""
-    share = support_share(machine) if line.id == "SUPPORT-STATIC" else None
-    return line.margin if share is None else share
 
 
 def _life(machine: Machine, by_id: dict[str, Check]) -> Figure:

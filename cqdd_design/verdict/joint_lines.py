@@ -24,7 +24,7 @@ from cqdd_design.results import Check
 from cqdd_design.solids.motor_rules import bell_material, bell_torque
 
 _MEGA = 1e6
-_DOWELS = ("DOWEL-SHEAR", "DOWEL-BEARING")
+DOWELS = ("DOWEL-SHEAR", "DOWEL-BEARING")
 
 
 def joint_lines(machine: Machine, warm: MachineTemperatures | None) -> tuple[Check, ...]:
@@ -44,15 +44,14 @@ def _dowels(machine: Machine) -> tuple[Check, ...]:
         lacking = _lacking(machine)
     except (CatalogError, ContactError, GeometryError) as error:
         return tuple(
-            build_check(one, None, None, error.message, "see why it is not known")
-            for one in _DOWELS
+            build_check(one, None, None, error.message, "see why it is not known") for one in DOWELS
         )
     if lacking:
         remedy = "raise ring.outer_diameter, or lower output_pins.diameter"
-        return tuple(build_check(one, None, None, lacking, remedy) for one in _DOWELS)
+        return tuple(build_check(one, None, None, lacking, remedy) for one in DOWELS)
     asked, lines = machine.design.requirements, _judged(found)
     cures = torques_that_hold(
-        lambda torque: _judged(loaded_dowels(machine.under(peak=torque))),
+        lambda torque: dowels(machine.under(peak=torque)),
         asked.peak_torque,
         lines,
         near=ROUGHLY,
@@ -66,6 +65,11 @@ def _dowels(machine: Machine) -> tuple[Check, ...]:
         else line
         for line in lines
     )
+
+
+def dowels(machine: Machine) -> tuple[Check, Check]:
+    """Both lines at the peak torque; errors as of `loaded_dowels`."""
+    return _judged(loaded_dowels(machine))
 
 
 def _judged(found: tuple[LoadedDowels, ...]) -> tuple[Check, Check]:

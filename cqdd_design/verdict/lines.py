@@ -13,12 +13,12 @@ from cqdd_design.gearbox.checks.equilibrium import (
     peak_checks,
 )
 from cqdd_design.gearbox.checks.guide_row import RIGID
+from cqdd_design.gearbox.checks.remedies import PEAK_KEY, lower_peak
 from cqdd_design.gearbox.checks.rubbing import rubbing_check
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.gearbox.contact.rubbing import ContactFriction
 from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 from cqdd_design.gearbox.film.plastics import rubbing_plastics, sliding_plastics
-from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine
 from cqdd_design.machine.cures import SEARCHED_CASES, torques_that_hold
 from cqdd_design.results import Check
@@ -77,7 +77,10 @@ def verdict_lines(evidence: Evidence) -> tuple[Check, ...]:
 def _carried(machine: Machine) -> dict[str, Check]:
     """Lines of the contact equilibrium by id; unknown where it has no answer."""
     state, contacts = machine.analysis, machine.loaded_contacts
-    peak = machine.design.requirements.peak_torque
+    peak, steady = (
+        machine.design.requirements.peak_torque,
+        machine.design.requirements.continuous_torque,
+    )
     found: dict[str, Check] = {
         check.id: build_check(
             check.id,
@@ -105,7 +108,7 @@ def _carried(machine: Machine) -> dict[str, Check]:
             reach,
             peak,
             error.message,
-            (f"lower requirements.peak_torque to {rounded_down(reach):g} N*m, or " if reach else "")
+            (f"{lower_peak(reach, steady, PEAK_KEY)}, or " if reach else "")
             + "make discs and pins thicker or the clearances smaller",
         )
     # Without an answer what stands there already says so.

@@ -23,6 +23,7 @@ from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Requirements
 from cqdd_design.errors import DesignError
+from cqdd_design.gearbox.checks.remedies import PEAK_KEY, lower_peak, lower_to
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.geometry.limits import rounded_down, rounded_up
 from cqdd_design.machine import Machine
@@ -122,13 +123,13 @@ def _peak(demand: Demand, actuator: ActuatorParameters, motor: Motor, asked: Req
     if motor.peak_torque is None and most >= asked.peak_torque:
         why = f"{told}the motor's own peak torque is not known"
         return build_check("MOTOR-PEAK", None, asked.peak_torque, why, GIVE, model=MODEL)
+    lower = f"{lower_peak(most, asked.continuous_torque, PEAK_KEY)}, " if most > 0.0 else ""
     return build_check(
         "MOTOR-PEAK",
         most,
         asked.peak_torque,
         f"{told}binding: {binding}",
-        f"{_lower('peak_torque', most)}{_raised([demand.found], actuator)}take a stronger motor or "
-        "more ratio",
+        f"{lower}{_raised([demand.found], actuator)}take a stronger motor or more ratio",
         model=MODEL,
     )
 
@@ -144,15 +145,15 @@ def _continuous(
     slower = "lower requirements.continuous_speed"
     if asked.continuous_speed is None:
         slower = "state as continuous_speed at which speed it is held, if that is less"
+    # What friction alone overheats holds nothing while it turns.
+    lower = f"{lower_to(most, 'requirements.continuous_torque')}, " if most > 0.0 else ""
     return build_check(
         "MOTOR-CONTINUOUS",
         most,
         asked.continuous_torque,
         f"{most:.4g} N*m at {asked.held_speed * _RPM:.0f} rpm of the motor; {still:.4g} N*m "
         "standing still",
-        # What friction alone overheats holds nothing while it turns.
-        f"{_lower('continuous_torque', most)}{slower}, lower friction, or cool it "
-        "(drive.thermal_resistance states how well)",
+        f"{lower}{slower}, lower friction, or cool it (drive.thermal_resistance states how well)",
         model=MODEL,
     )
 
@@ -195,11 +196,6 @@ def _raised(points: list[Judgement], actuator: ActuatorParameters) -> str:
         return ""
     words = (_RAISED[name].format(rounded_up(needed)) for name, (needed, _) in short.items())
     return f"raise {' and '.join(words)}, or "
-
-
-def _lower(key: str, most: float) -> str:
-    """To ask for less, where less is reached at all."""
-    return f"lower requirements.{key} to {rounded_down(most):g} N*m, " if most > 0.0 else ""
 
 
 def _fastest(actuator: ActuatorParameters, torque: float) -> float:

@@ -40,7 +40,7 @@ def _cured(machine: Machine, slip: Check) -> Check:
     """With the peak torque at which nothing slips, where there is one."""
     asked = machine.design.requirements
     cures = torques_that_hold(
-        lambda torque: (_slip(screw_joints(machine.under(peak=torque))),),
+        lambda torque: slips(machine.under(peak=torque)),
         asked.peak_torque,
         (slip,),
         near=ROUGHLY,
@@ -50,6 +50,11 @@ def _cured(machine: Machine, slip: Check) -> Check:
         return slip
     lower = lower_peak(torque, asked.continuous_torque)
     return replace(slip, remedy=f"{slip.remedy}; or {lower}")
+
+
+def slips(machine: Machine) -> tuple[Check]:
+    """SCREW-SLIP at the peak torque; errors as of `screw_joints`."""
+    return (_slip(screw_joints(machine)),)
 
 
 def _slip(every: tuple[ScrewJoint, ...]) -> Check:

@@ -49,7 +49,7 @@ def shaft_lines(machine: Machine) -> tuple[Check, ...]:
     Of perfect parts in contact equilibrium, driving with friction: at the peak torque in both
     senses, and over the duty.
     """
-    names = (*_AT_PEAK, *_OVER_DUTY)
+    names = (*AT_PEAK, *_OVER_DUTY)
     try:
         peak, duty = machine.peak_pack, machine.life.pack
         rotor = _rotor(machine)
@@ -64,7 +64,7 @@ def shaft_lines(machine: Machine) -> tuple[Check, ...]:
         )
 
 
-_AT_PEAK = ("SHAFT-STRENGTH", "SUPPORT-STATIC", "OUTPUT-STATIC")
+AT_PEAK = ("SHAFT-STRENGTH", "SUPPORT-STATIC", "OUTPUT-STATIC")
 _OVER_DUTY = ("SHAFT-FATIGUE", "SUPPORT-LIFE", "OUTPUT-LIFE")
 
 
@@ -151,17 +151,20 @@ def _rotor(machine: Machine) -> _Rotor:
     return _Rotor(np.array(on_bearings))
 
 
-def support_share(machine: Machine) -> float | None:
-    """Share of the peak torque at which SUPPORT-STATIC is on its limit; None where not known.
+def shaft_at_peak(machine: Machine, duty: PackLoads) -> tuple[Check, Check, Check]:
+    """Lines of `AT_PEAK`.
 
-    Of the discs' forces, which alone are in proportion to the torque.
+    Raises
+    ------
+    CatalogError, ContactError, GeometryError
+        Where they are not known.
     """
-    rating = machine.seats[0].bearing.static_rating
-    if rating is None:
-        return None
-    discs = support_loads(machine, machine.peak_pack).max(axis=(0, 1))
-    left = rating / STATIC_SAFETY - _rotor(machine).on_bearings
-    return max(float((left / discs).min()), 0.0)
+    peak, rotor = machine.peak_pack, _rotor(machine)
+    return (
+        _strength(machine, peak, duty)[0],
+        _support_static(machine, peak, rotor),
+        _output_static(machine, output_loads(machine, peak), _LIGHTER, rotor),
+    )
 
 
 def _support_static(machine: Machine, peak: PackLoads, rotor: _Rotor) -> Check:
@@ -212,11 +215,43 @@ def _output(
 
     if passes(1.0):
         return both(_LIGHTER)
-    ways = [_less_from_outside(machine, passes) or _LIGHTER]
+    ways = []
     other = bearing_for_loads(machine)
     if other is not None and other.bears and other.bearing != machine.seats[1].bearing:
-        ways.insert(0, f"set carrier_bearing.designation to '{other.bearing.designation}'")
-    return both(", or ".join(ways))
+        ways.append(f"set carrier_bearing.designation to '{other.bearing.designation}'")
+    ways += [less] if (less := _less_from_outside(machine, passes)) else []
+    lines = both(", or ".join(ways) or _LIGHTER)
+    lower = {} if machine.stiff else _less_torque(machine, lines)
+    told = [
+        replace(one, remedy=", or ".join((*ways, lower[one.id]))) if one.id in lower else one
+        for one in lines
+    ]
+    return told[0], told[1]
+
+
+def _less_torque(machine: Machine, lines: tuple[Check, Check]) -> dict[str, str]:
+    """Torques at which those that fail would hold, in words by line, as far as there are any."""
+    static, life = lines
+    lower, asked = {}, machine.design.requirements
+    if static.status == "fail":
+        held = torques_that_hold(
+            lambda torque: shaft_at_peak(machine.under(peak=torque), machine.life.pack)[2:],
+            asked.peak_torque,
+            (static,),
+            near=ROUGHLY,
+        )
+        if torque := held[static.id]:
+            lower[static.id] = lower_peak(torque, asked.continuous_torque)
+    if life.status == "fail" and len(machine.life.duty) <= SEARCHED_CASES:
+
+        def over_duty(share: float) -> tuple[Check]:
+            pack = machine.under(duty_share=share).life.pack
+            return (_output_life(machine, output_loads(machine, pack), ""),)
+
+        shares = torques_that_hold(over_duty, 1.0, (life,), near=ROUGHLY)
+        if share := shares[life.id]:
+            lower[life.id] = lower_duty(machine.life, share)
+    return lower
 
 
 def _less_from_outside(machine: Machine, passes: Callable[[float], bool]) -> str:

@@ -38,8 +38,8 @@ def test_every_kind_is_written_and_nothing_is_overwritten(cqdd, tmp_path, kind):
     assert path.read_text() == "mine"
     assert cqdd("new", kind, "--force").code == 0
     assert path.read_text() == text
-    assert cqdd("new", kind, "--out", "elsewhere.toml").code == 0
-    assert (tmp_path / "elsewhere.toml").read_text() == text
+    assert cqdd("new", kind, "--out", f"elsewhere{path.suffix}").code == 0
+    assert (tmp_path / f"elsewhere{path.suffix}").read_text() == text
 
 
 def test_the_design_template_is_a_design(cqdd, tmp_path):

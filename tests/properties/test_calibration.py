@@ -17,6 +17,7 @@ from cqdd_design.actuator.bench.calibration_file import read_calibration, write_
 from cqdd_design.actuator.bench.measured import read_measured
 from cqdd_design.actuator.bench.unknowns import TELLS, UNKNOWNS, Fit, apply_factors
 from cqdd_design.actuator.build import actuator_parameters
+from cqdd_design.actuator.fitted_under import FittedUnder
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.specimen import Specimen
 from cqdd_design.design import load_design
@@ -198,7 +199,65 @@ def test_what_was_fitted_predicts_nothing(actuator: ActuatorParameters) -> None:
     assert relations(fit) == ["given", "predicted", "calibrated"]
 
 
+HERE = FittedUnder(24.0, 25.0)
+
+
+@pytest.mark.parametrize(
+    ("row", "under", "says"),
+    [
+        ("no_load_speed", HERE, ""),
+        ("no_load_speed", HERE._replace(voltage=30.0), "fitted at 30 V, measured here at 24 V"),
+        ("backdrive_static", HERE._replace(voltage=30.0), ""),
+        ("backdrive_static", HERE._replace(seed=3), "fitted to the gearbox of seed 3"),
+        ("no_load_speed", HERE._replace(seed=3), ""),
+        ("no_load_speed", HERE._replace(ambient=40.0), "fitted in air of 40 degC, here 25 degC"),
+        ("no_load_speed", HERE._replace(rig_stiffness=8e3), ""),
+        ("no_load_speed", HERE._replace(other="another design (x)"), "another design (x)"),
+    ],
+)
+def test_rows_fitted_under_other_conditions_are_not_comparable(
+    actuator: ActuatorParameters, row: str, under: FittedUnder, says: str
+) -> None:
+    fitted = apply_factors(actuator, Fit({"motor_cogging": 0.03}, (row,), under))
+    (found,) = run_bench(fitted, only=[row]).metrics
+    assert found.relation == ("not comparable" if says else "calibrated")
+    assert says in found.remark
+
+
+def test_a_rig_of_its_own_matters_to_the_torque_bandwidth() -> None:
+    on_rig = HERE._replace(rig_stiffness=8e3)
+    assert (
+        on_rig.differs("torque_bandwidth", HERE) == "fitted on a rig of 8000 N*m/rad, here a "
+        "torque sensor"
+    )
+    assert not on_rig.differs("torque_bandwidth", on_rig)
+
+
 # ------------------------------------------------------------------ files
+
+
+def test_a_file_holds_what_it_was_measured_under(tmp_path: Path) -> None:
+    path, rest = (
+        tmp_path / "c.json",
+        '"unknowns": {"motor_cogging": {"value": 0.03, "unit": "N*m"}}',
+    )
+    held = {"voltage_V": 30.0, "ambient_degC": 40.0, "rig_stiffness_Nm_per_rad": None,
+            "gearbox_seed": 2}  # fmt: skip
+    path.write_text(
+        HEAD + f'"design_sha256": "abc", "measured_under": {json.dumps(held)}, {rest}}}'
+    )
+    fit, warning = read_calibration(path, "abc")
+    assert fit.under == FittedUnder(30.0, 40.0, None, 2)
+    assert fit.under.to_dict() == held
+    assert not warning
+    fit, warning = read_calibration(path, "def")
+    assert "another design" in warning
+    assert "another design" in fit.under.differs("mass", FittedUnder(30.0, 40.0, None, 2))
+    # As earlier versions wrote it.
+    path.write_text(HEAD + f'"design_sha256": "abc", {rest}}}')
+    fit, warning = read_calibration(path, "abc")
+    assert fit.under is None
+    assert "does not say at which supply" in warning
 
 
 @pytest.mark.deep
@@ -210,6 +269,7 @@ def test_file_brings_the_factors_back(actuator: ActuatorParameters, tmp_path: Pa
     read, warning = read_calibration(path, "abc")
     assert dict(read) == pytest.approx(dict(found.factors))
     assert (read.rows, warning) == (("backdrive_static",), "")
+    assert read.under == FittedUnder(24.0, actuator.thermal.ambient)
     assert "another design" in read_calibration(path, "def")[1]
 
 
@@ -247,6 +307,11 @@ def test_file_brings_the_factors_back(actuator: ActuatorParameters, tmp_path: Pa
         (
             HEAD + '"unknowns": {"friction_load": {"factor": 2}}, "rows": []}',
             "no table of measurements",
+        ),
+        (
+            HEAD + '"measured_under": {"voltage_V": "24 V"}, "unknowns": {"friction_load": '
+            '{"factor": 2}}}',
+            "measured_under must have voltage_V",
         ),
         (
             HEAD + '"unknowns": {"friction_load": 2}}',

@@ -2,6 +2,7 @@
 
 import errno
 import os
+import re
 import socket
 import time
 from pathlib import Path
@@ -14,6 +15,7 @@ from hypothesis import strategies as st
 from cqdd_design.environment import source_date
 from cqdd_design.errors import DesignError, UsageError
 from cqdd_design.files import (
+    kind_by_ending,
     parse_json,
     parse_toml,
     read_regular_file,
@@ -33,6 +35,24 @@ def test_failed_writer_leaves_nothing(tmp_path):
     with pytest.raises(RuntimeError):
         write_with(tmp_path / "part.dxf", "dxf", broken)
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("name", "kinds", "said"),
+    [
+        ("a/r.txt", ("html",), "a/r.txt does not end in .html; name it a/r.html."),
+        ("r.txt", ("npz", "parquet"), "ends neither in .npz nor in .parquet; name it r.npz."),
+        ("fit", ("json",), "fit does not end in .json; name it fit.json."),
+        ("..", ("json",), "name it "),
+    ],
+)
+def test_a_file_is_called_what_it_holds(name, kinds, said):
+    with pytest.raises(UsageError, match=re.escape(said)):
+        kind_by_ending(Path(name), kinds, "stem")
+
+
+def test_endings_are_known_in_capitals():
+    assert kind_by_ending(Path("R.HTML"), ("html", "pdf"), "report") == "html"
 
 
 def test_full_disk_is_a_sentence_and_keeps_the_old_file(tmp_path):

@@ -434,3 +434,15 @@ def test_broken_map_files_are_refused(tmp_path, text, told):
 def test_a_map_file_that_is_not_there_is_refused(tmp_path):
     with pytest.raises(UsageError, match="cannot read"):
         read_map(tmp_path / "map.toml")
+
+
+def test_a_limit_below_what_the_logs_hold_is_told(tmp_path):
+    path = write(tmp_path / "run.csv", motion(rate=200.0))
+    most = imported(path).data.torque_range[1]
+    assert not imported(path, torque_limit=most).warnings
+    found = imported(path, torque_limit=0.5 * most)
+    assert found.data.torque_range == (-0.5 * most, 0.5 * most)
+    (said,) = found.warnings
+    share = np.mean(np.abs(found.data.episodes[0].columns["torque"]) > 0.5 * most)
+    assert f"reach {most:.4g} N*m" in said
+    assert f"{100.0 * share:.2g} % of the samples" in said

@@ -21,6 +21,7 @@ from cqdd_design.actuator.bench.unknowns import (
     refuse_unknown,
     told_unknown,
 )
+from cqdd_design.actuator.fitted_under import FittedUnder
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.errors import UsageError, did_you_mean
 
@@ -128,7 +129,9 @@ class Calibration:
 
     def to_dict(self) -> dict[str, object]:
         """Return the JSON form (``results`` of ``calibrate``)."""
+        under = self.factors.under
         return {
+            "measured_under": None if under is None else under.to_dict(),
             "unknowns": {
                 name: {
                     **_stated(name, factor),
@@ -218,7 +221,8 @@ def calibrate(
     tell = progress or (lambda text: None)
     tell(f"fitting {', '.join(names)}")
     targets = {name: measured[name] for name in rows}
-    factors = Fit(fit(parameters, targets, names, voltage, rig_stiffness), rows)
+    under = FittedUnder(voltage, parameters.thermal.ambient, rig_stiffness, parameters.seed)
+    factors = Fit(fit(parameters, targets, names, voltage, rig_stiffness), rows, under)
     final = apply_factors(parameters, factors)
     tell("measuring before")
     before = run_bench(

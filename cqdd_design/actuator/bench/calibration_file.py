@@ -11,6 +11,7 @@ from typing import Any
 from cqdd_design.actuator.bench.calibrate import Calibration
 from cqdd_design.actuator.bench.metric import METRICS
 from cqdd_design.actuator.bench.unknowns import UNKNOWNS, Fit
+from cqdd_design.actuator.fitted_under import FittedUnder
 from cqdd_design.errors import UsageError, did_you_mean, shown
 from cqdd_design.files import WrittenFile, parse_json, read_text_file, write_atomically
 
@@ -61,13 +62,37 @@ def read_calibration(path: Path, design_sha256: str) -> tuple[Fit, str]:
                 f"{path}: the unit of {name} is {shown(entry.get('unit'))}; it must be '{unit}'."
             )
         factors[name] = float(factor)
-    warning = ""
-    if content.get("design_sha256") != design_sha256:
+    warning, under = "", _under(path, content)
+    if under is None:
+        warning = (
+            f"{path} does not say at which supply and in which air it was measured; whether rows "
+            "fitted to it agree is told as if that were here. `calibrate` writes it anew."
+        )
+    other = content.get("design_sha256") != design_sha256
+    if other:
         warning = (
             f"{path} was fitted to another design ({content.get('name')}) or an earlier state of "
             "this one; its factors are applied all the same."
         )
-    return Fit(factors, _fitted(path, content, factors)), warning
+    found = Fit(factors, _fitted(path, content, factors), under)
+    return (found.fitted_to(f"another design ({content.get('name')})") if other else found), warning
+
+
+def _under(path: Path, content: Mapping[str, Any]) -> FittedUnder | None:
+    """What a calibration was measured under; None where an earlier version left it out."""
+    found = content.get("measured_under")
+    if found is None:
+        return None
+    try:
+        voltage, ambient = float(found["voltage_V"]), float(found["ambient_degC"])
+        rig, seed = found["rig_stiffness_Nm_per_rad"], found["gearbox_seed"]
+        rig, seed = rig if rig is None else float(rig), seed if seed is None else int(seed)
+    except (KeyError, TypeError, ValueError, OverflowError):
+        raise UsageError(
+            f"{path}: measured_under must have voltage_V, ambient_degC, rig_stiffness_Nm_per_rad "
+            "and gearbox_seed, the last two a number or null."
+        ) from None
+    return FittedUnder(voltage, ambient, rig, seed)
 
 
 def _fitted(

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from cqdd_design.actuator.bench import bandwidth, gear, steady
 from cqdd_design.actuator.bench.metric import BenchResult, Metric, refuse_unmeasured
+from cqdd_design.actuator.fitted_under import FittedUnder
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.catalog import paper
 from cqdd_design.errors import UsageError
@@ -109,6 +110,7 @@ def run_bench(
         "position_bandwidth_45deg": lambda: bandwidth.position_bandwidth(parameters, 45.0, voltage),
         "position_bandwidth_5deg": lambda: bandwidth.position_bandwidth(parameters, 5.0, voltage),
     }
+    here = FittedUnder(voltage, parameters.thermal.ambient, rig_stiffness, parameters.seed)
     found, warnings = [], []
     for name, measure in measures.items():
         if only and name not in only:
@@ -119,8 +121,7 @@ def run_bench(
         if metric is None:
             warnings.append(f"{measurement(name)}: {_ABSENT[name]}.")
         else:
-            fitted = metric.name in parameters.fitted
-            found.append(dataclasses.replace(metric, relation="calibrated") if fitted else metric)
+            found.append(_related(metric, parameters, here))
             if metric.missing:
                 warnings.append(f"{measurement(name)}: {metric.missing}.")
     hanging = [measurement(metric.name) for metric in found if metric.name in _OF_DRAG]
@@ -139,3 +140,15 @@ def run_bench(
         warnings=tuple(warnings),
         required=required,
     )
+
+
+def _related(metric: Metric, parameters: ActuatorParameters, here: FittedUnder) -> Metric:
+    """A measurement that something was fitted to, called so; not where that was elsewise."""
+    if metric.name not in parameters.fitted:
+        return metric
+    under = parameters.fitted_under
+    other = "" if under is None else under.differs(metric.name, here)
+    if not other:
+        return dataclasses.replace(metric, relation="calibrated")
+    remark = f"{metric.remark}; {other}" if metric.remark else other
+    return dataclasses.replace(metric, relation="not comparable", remark=remark)

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
 
+from cqdd_design.actuator.fitted_under import FittedUnder
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.errors import UsageError, did_you_mean
 
@@ -156,10 +157,18 @@ def refuse_unknown(name: str) -> None:
 
 @dataclass(frozen=True)
 class Fit(Mapping[str, float]):
-    """Factors or values of unknowns, and the measurements that they were fitted to."""
+    """Factors or values of unknowns, the measurements that they were fitted to, and under what."""
 
     factors: Mapping[str, float]
     rows: tuple[str, ...]
+    under: FittedUnder | None = None
+
+    def fitted_to(self, other: str) -> Fit:
+        """The same, of another design in words: its rows are not those of the one at hand."""
+        under = self.under
+        return (
+            self if under is None else dataclasses.replace(self, under=under._replace(other=other))
+        )
 
     def __getitem__(self, name: str) -> float:
         """The factor or value of an unknown."""
@@ -202,4 +211,5 @@ def apply_factors(
     told = [UNKNOWNS[name].told_by for name in factors if UNKNOWNS[name].told_by]
     rows = factors.rows if isinstance(factors, Fit) else told
     fitted = tuple(dict.fromkeys((*parameters.fitted, *rows)))
-    return dataclasses.replace(found, origins=origins, fitted=fitted)
+    under = factors.under if isinstance(factors, Fit) else parameters.fitted_under
+    return dataclasses.replace(found, origins=origins, fitted=fitted, fitted_under=under)

@@ -10,7 +10,7 @@ from cqdd_design.gearbox.bodies.strength import LIGAMENTS, BodyStrength, Swing
 from cqdd_design.gearbox.bodies.stress import Region
 from cqdd_design.gearbox.checks.allowables import Allowable, edge_limit_fatigue, edge_limit_peak
 from cqdd_design.gearbox.checks.equilibrium import NO_CURES, Cures
-from cqdd_design.gearbox.checks.remedies import lower_to
+from cqdd_design.gearbox.checks.remedies import lower_peak, lower_shares, lower_to
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.results import Check
 
@@ -42,8 +42,8 @@ def body_checks(
     strength : BodyStrength
         At the torques of the requirements.
     cures : mapping
-        Torques at which lines that fail would hold, N m, by check: peak ones for ``-STRESS``,
-        continuous ones else. Remedies of others name none.
+        What makes lines that fail hold, by check: peak torques, N m, for ``-STRESS``, else shares
+        of the continuous torque or the duty's. Remedies of others name none.
     """
     found = [
         check
@@ -76,10 +76,9 @@ def _creep(design: Design, strength: BodyStrength, cures: Cures) -> tuple[Check,
         rows, key=lambda row: (row[0] > DESIGN_STRAIN, row[2].creep_modulus is None, row[0])
     )
     known = material.creep_modulus is not None or strain > DESIGN_STRAIN
-    torque = design.requirements.continuous_torque
     held = "after 1000 h at 23 degC" if material.creep_modulus else "at once"
     told = (
-        f"{stress / _MEGA:.1f} MPa in the {part} of {material.name} at {torque:g} N*m: "
+        f"{stress / _MEGA:.1f} MPa in the {part} of {material.name} {_lasting(design)}: "
         f"{100.0 * strain:.2g} % {held}"
     )
     if material.creep_modulus is None:
@@ -87,7 +86,7 @@ def _creep(design: Design, strength: BodyStrength, cures: Cures) -> tuple[Check,
     less = ""
     # Of a plastic whose creep is not known a lower torque leaves that unknown.
     if material.creep_modulus is not None:
-        less = f"{_lower('PLASTIC-CREEP', 'continuous', cures)}, "
+        less = f"{_lower_lasting('PLASTIC-CREEP', design, cures)}, "
     return (
         build_check(
             "PLASTIC-CREEP",
@@ -113,7 +112,7 @@ def _static(part: _Part, design: Design, strength: BodyStrength, cures: Cures) -
         _known(allowed),
         f"{stress / _MEGA:.1f} MPa in {kind} at disc {peak.disc + 1}{where}, "
         f"b {design.reducer.disc_thickness * 1e3:g} mm, at {peak.torque:g} N*m",
-        _remedy(first, f"{part.name}-STRESS", allowed, "peak", cures),
+        _remedy(first, allowed, _lower_peak(f"{part.name}-STRESS", design, cures)),
         basis=allowed.basis,
     )
 
@@ -126,8 +125,8 @@ def _fatigue(part: _Part, design: Design, strength: BodyStrength, cures: Cures) 
         f"{part.name}-FATIGUE",
         stress / _MEGA,
         _known(allowed),
-        _cycle_words(swing, material, design.requirements.continuous_torque),
-        _remedy(first, f"{part.name}-FATIGUE", allowed, "continuous", cures),
+        _cycle_words(swing, material, _lasting(design)),
+        _remedy(first, allowed, _lower_lasting(f"{part.name}-FATIGUE", design, cures)),
         basis=allowed.basis,
     )
 
@@ -137,13 +136,13 @@ def _known(allowed: Allowable) -> float | None:
     return allowed.value / _MEGA if allowed.value > 0.0 else None
 
 
-def _cycle_words(swing: Swing, material: Material, torque: float) -> str:
+def _cycle_words(swing: Swing, material: Material, at: str) -> str:
     ultimate = material.ultimate_strength
     strength = "" if ultimate is None else f", S_u {ultimate / _MEGA:.0f} MPa"
     where = f" ({swing.region})" if _at_columns(swing.region) else ""
     return (
         f"{swing.low / _MEGA:.1f} to {swing.high / _MEGA:.1f} MPa a turn{where}{strength}: "
-        f"{swing.reversed_amplitude / _MEGA:.1f} MPa reversed, at {torque:g} N*m"
+        f"{swing.reversed_amplitude / _MEGA:.1f} MPa reversed, {at}"
     )
 
 
@@ -157,15 +156,32 @@ def _material(part: str, design: Design) -> Material:
     return find_material(reducer.ring_material if part == "RING" else reducer.disc_material)
 
 
-def _remedy(first: str, check_id: str, allowed: Allowable, load: str, cures: Cures) -> str:
+def _remedy(first: str, allowed: Allowable, lower: str) -> str:
     """What lowers a stress; how thick a disc, which shares otherwise, would have to be is open."""
     if allowed.value <= 0.0:
         return "choose a material whose strength the catalogue has"
-    return f"{first}raise disc_thickness, or {_lower(check_id, load, cures)}"
+    return f"{first}raise disc_thickness, or {lower}"
 
 
-def _lower(check_id: str, load: str, cures: Cures) -> str:
-    """How far to lower a torque, in words."""
+def _lasting(design: Design) -> str:
+    """The torque of cycles, in words."""
+    asked = design.requirements
+    whose = ", the greatest of the duty" if asked.load_cases else ""
+    return f"at {asked.lasting_torque:g} N*m{whose}"
+
+
+def _lower_peak(check_id: str, design: Design, cures: Cures) -> str:
+    """How far to lower the peak torque, in words."""
     if check_id not in cures:
-        return f"lower the {load} torque"
-    return lower_to(cures[check_id], f"{load} torque")
+        return "lower the peak torque"
+    return lower_peak(cures[check_id], design.requirements.continuous_torque, "peak torque")
+
+
+def _lower_lasting(check_id: str, design: Design, cures: Cures) -> str:
+    """How far to lower the torques that last, in words."""
+    asked, share = design.requirements, cures.get(check_id)
+    if asked.load_cases:
+        return lower_shares(share)
+    if share is None:
+        return "lower the continuous torque"
+    return lower_to(share * asked.continuous_torque, "continuous torque")

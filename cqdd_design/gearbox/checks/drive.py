@@ -8,6 +8,7 @@ from typing import Literal
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.gearbox.balance import BALANCING_PLANES, paper_disc_count
 from cqdd_design.gearbox.checks import allowables
+from cqdd_design.gearbox.checks.remedies import PEAK_KEY, Lower, lower_lasting, lower_peak
 from cqdd_design.gearbox.checks.state import GearboxState, build_check
 from cqdd_design.geometry.limits import rounded_down, rounded_up
 from cqdd_design.geometry.scale import largest_ring
@@ -137,7 +138,7 @@ def _make(
 
 
 def _torque_check(
-    state: GearboxState, check_id: str, key: str, torque: float, available: float
+    state: GearboxState, check_id: str, torque: float, available: float, lower: Lower
 ) -> Check:
     n, eta = state.design.reducer.ratio, allowables.REDUCER_EFFICIENCY
     needed, reached = torque / (n * eta), available * n * eta
@@ -147,20 +148,26 @@ def _torque_check(
         reached,
         torque,
         f"{available:g} N*m x {n} x {eta:g} = {reached:.4g} N*m",
-        f"lower requirements.{key} to {rounded_down(reached):g} N*m, or take a motor "
-        f"with {rounded_up(needed):g} N*m; both with the assumed efficiency of {eta:g}, above what "
-        "the losses leave",
+        f"{lower(reached)}, or take a motor with {rounded_up(needed):g} N*m; both with the "
+        f"assumed efficiency of {eta:g}, above what the losses leave",
     )
 
 
 def _peak(state: GearboxState, motor: Motor, available: float) -> Check:
-    torque = state.design.requirements.peak_torque
-    return _torque_check(state, "MOTOR-PEAK", "peak_torque", torque, available)
+    asked = state.design.requirements
+
+    def lower(torque: float) -> str:
+        return lower_peak(torque, asked.continuous_torque, PEAK_KEY)
+
+    return _torque_check(state, "MOTOR-PEAK", asked.peak_torque, available, lower)
 
 
 def _continuous(state: GearboxState, motor: Motor, available: float) -> Check:
-    torque = state.design.requirements.continuous_torque
-    return _torque_check(state, "MOTOR-CONTINUOUS", "continuous_torque", torque, available)
+    asked = state.design.requirements
+    torque = asked.continuous_torque
+    return _torque_check(
+        state, "MOTOR-CONTINUOUS", torque, available, lambda most: lower_lasting(most, asked)
+    )
 
 
 def _speed(state: GearboxState, motor: Motor, constant: float) -> Check:

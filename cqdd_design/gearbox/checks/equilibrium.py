@@ -23,6 +23,7 @@ from cqdd_design.gearbox.checks.remedies import (
     better_held,
     harder_parts,
     lower_peak,
+    lower_shares,
     lower_to,
     stronger_pins,
 )
@@ -31,7 +32,7 @@ from cqdd_design.gearbox.life import LifeResult
 from cqdd_design.gearbox.life.result import PartLife
 from cqdd_design.gearbox.life.runners import RunnerLife
 from cqdd_design.gearbox.pin_beam import HELD
-from cqdd_design.geometry.limits import rounded_down, rounded_up
+from cqdd_design.geometry.limits import rounded_up
 from cqdd_design.results import Check
 
 MODEL = "contact equilibrium of perfect parts, driving with friction"
@@ -120,12 +121,7 @@ def lower_duty(life: LifeResult, share: float | None) -> str:
     """What to do where a line holds up to a share of the duty's torques; None where not known."""
     if life.assumed and share is not None:
         return lower_to(share * life.duty[0].torque, "continuous torque")
-    whose = "continuous torque" if life.assumed else "torques of the duty"
-    if share is None:
-        return f"lower the {whose}"
-    if share <= 0.0:
-        return f"no {whose} are low enough"
-    return f"lower the {whose} to {rounded_down(100.0 * share):g} % of what they are"
+    return "lower the continuous torque" if life.assumed else lower_shares(share)
 
 
 def _limited(

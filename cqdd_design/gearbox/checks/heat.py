@@ -42,23 +42,33 @@ def rise_check(parts: tuple[WarmPart, ...], ambient: float, heat: float, as_draw
 
     worst = max(parts, key=used)
     told = ", ".join(f"{one.name} {one.temperature:.0f} of {one.most:g}" for one in parts)
-    needed = (worst.most - ambient) / max(as_drawn, 1e-9)
-    enough = ""
-    if needed > 0.0:
-        # What warm parts lose is known only once they are: mostly less, of thinner lubricant.
-        enough = (
-            f": {rounded_down(needed, 2):g} K/W to the air carry off the {as_drawn:.0f} W lost "
-            "before parts are warm, and more may do"
-        )
     return build_check(
         "THERMAL-RISE",
         worst.temperature,
         worst.most,
         f"{told} degC in air of {ambient:g} degC; {heat:.0f} W in all, {as_drawn:.0f} before parts "
         "are warm",
-        f"cool it{enough} (state what cooling reaches as drive.thermal_resistance), or lower "
-        "requirements.continuous_torque, input_speed, or friction",
+        cooling_remedy(),
     )
+
+
+def cooling_remedy(enough: float | None = None, *, duty: bool = False) -> str:
+    """What cools parts: a resistance (K/W) that is enough, where it is looked for, 0 where none is.
+
+    Under a duty its torques and speeds are what heats.
+
+    What warm parts lose is known only once they are, mostly less than as drawn.
+    """
+    told = (
+        "" if enough is None else f": {rounded_down(enough):g} K/W from winding to air are enough"
+    )
+    cool = f"cool it{told} (state what cooling reaches as drive.thermal_resistance), or "
+    if enough == 0.0:
+        cool = "no cooling is enough: "
+    less = (
+        "torques or speeds of the duty" if duty else "requirements.continuous_torque, input_speed"
+    )
+    return f"{cool}lower {less}, or friction"
 
 
 def clearance_check(states: tuple[Tightness, ...], remedy: Callable[[], str]) -> Check:

@@ -14,7 +14,7 @@ from cqdd_design.gearbox.checks.allowables import UNEVEN_SHARING, Allowable
 from cqdd_design.gearbox.checks.remedies import (
     MaterialRule,
     harder_parts,
-    lower_torque,
+    lower_screened,
     softer_contact,
     stronger_capacity,
     stronger_pins,
@@ -57,7 +57,12 @@ def _contact(state: GearboxState) -> tuple[Check, ...]:
             f"sqrt({UNEVEN_SHARING:g}) x {raw / _MEGA:.1f} MPa = {pressure / _MEGA:.1f} MPa "
             f"(F up to {force:.1f} N a disc, b {reducer.disc_thickness * 1e3:g} mm) at "
             f"{load.torque:g} N*m",
-            softer_contact(reducer.disc_thickness, load.torque, pressure, allowed.value)
+            softer_contact(
+                reducer.disc_thickness,
+                pressure,
+                allowed.value,
+                lambda share: lower_screened(state, load, share),
+            )
             + harder_parts(parts, rule, pressure, _SPREAD[at_ring]),
             basis=allowed.basis,
         )
@@ -111,7 +116,7 @@ def _pins(state: GearboxState) -> tuple[Check, ...]:
             f"{UNEVEN_SHARING:g} x {raw / _MEGA:.1f} MPa = {value / _MEGA:.1f} MPa "
             f"(F {force:.1f} N on {where}) at {load.torque:g} N*m",
             stronger_pins(
-                state, value, limits, lower_torque(load.torque, limits[1].value / value), power
+                state, value, limits, lower_screened(state, load, limits[1].value / value), power
             ),
             basis=allowed.basis,
         )
@@ -148,12 +153,12 @@ def _pins(state: GearboxState) -> tuple[Check, ...]:
 
 
 def _bearing(state: GearboxState) -> tuple[Check, ...]:
-    cam, requirements = state.cam_bearing, state.design.requirements
+    cam = state.cam_bearing
     bearing, exponent = cam.bearing, cam.exponent
     rpm = cam.speed * 30.0 / math.pi
     safety, life = cam.static_safety or 0.0, cam.life_hours or 0.0
     static, dynamic = bearing.static_rating or 0.0, bearing.dynamic_rating or 0.0
-    hours = requirements.life_hours
+    hours = state.design.requirements.life_hours
     at_life = float(load_for_life(dynamic, hours, cam.speed, exponent))
     other = _other_bearing(state)
     needed = cam.continuous_load * dynamic / at_life if at_life > 0.0 else math.nan
@@ -164,7 +169,7 @@ def _bearing(state: GearboxState) -> tuple[Check, ...]:
             allowables.STATIC_SAFETY,
             f"{bearing.designation}: {static:.0f} N/{cam.peak_load:.1f} N = {safety:.3f}",
             f"needs C0 of {cam.peak_load / 1e3 * allowables.STATIC_SAFETY:.3g} kN: {other}; or "
-            + lower_torque(requirements.peak_torque, safety / allowables.STATIC_SAFETY),
+            + lower_screened(state, state.rigid_peak, safety / allowables.STATIC_SAFETY),
         ),
         build_check(
             "BEARING-LIFE",
@@ -174,7 +179,7 @@ def _bearing(state: GearboxState) -> tuple[Check, ...]:
             f"{exponent:.3g}/(60 x {rpm:.0f} rpm) = {life:.0f} h",
             (f"needs C of {needed / 1e3:.3g} kN: " if math.isfinite(needed) else "")
             + f"{other}; or "
-            + lower_torque(requirements.continuous_torque, at_life / cam.continuous_load),
+            + lower_screened(state, state.rigid_continuous, at_life / cam.continuous_load),
         ),
     ]
     if bearing.kind == "needle cage":

@@ -12,9 +12,11 @@ from collections.abc import Callable
 from cqdd_design.catalog.materials import Material, materials
 from cqdd_design.catalog.screws import shoulder_screws
 from cqdd_design.design.reducer import Reducer
+from cqdd_design.design.requirements import Requirements
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.allowables import Allowable
 from cqdd_design.gearbox.checks.state import GearboxState
+from cqdd_design.gearbox.loads import RigidMaxima
 from cqdd_design.geometry.limits import rounded_down, rounded_up
 
 _MEGA = 1e6
@@ -24,10 +26,12 @@ _AS_STIFF = 0.9
 """Of a part's modulus: what is softer is no harder part, though it would spread the contact."""
 _SPARE = 1.02
 """Reserve of another material, since stiffer bodies share with fewer teeth and pins."""
+PEAK_KEY = "requirements.peak_torque"
 _UNMOVED = 0.05e-3
 """A circle that moves by less need not be told, m."""
 
 MaterialRule = Callable[[Material], Allowable]
+Lower = Callable[[float], str]
 
 
 def torque_words(value: float) -> str:
@@ -35,27 +39,48 @@ def torque_words(value: float) -> str:
     return f"{rounded_down(value):g} N*m"
 
 
-def lower_torque(torque: float, share: float) -> str:
-    """What to do where a bearing carries but a share of a torque (N m)."""
-    if share <= 0.0:
-        return "choose a bearing with catalogue ratings"
-    return f"lower the torque to {torque_words(torque * share)}"
-
-
 def lower_to(torque: float, which: str = "torque") -> str:
-    """What to do where a line holds up to a torque (N m), by the name of the torque."""
+    """What to do where a line holds up to a torque (N m), by its name or key."""
     if torque <= 0.0:
         return f"no {which} is low enough"
-    return f"lower the {which} to {torque_words(torque)}"
+    article = "" if which.startswith("requirements.") else "the "
+    return f"lower {article}{which} to {torque_words(torque)}"
 
 
-def lower_peak(torque: float, continuous: float) -> str:
+def lower_peak(torque: float, continuous: float, which: str = "torque") -> str:
     """The same of the peak torque (N m), below which the continuous one (N m) has to stay."""
-    words = lower_to(torque)
+    words = lower_to(torque, which)
     return f"{words} (with it the continuous torque)" if 0.0 < torque < continuous else words
 
 
-def softer_contact(thickness: float, torque: float, pressure: float, limit: float) -> str:
+def lower_shares(share: float | None) -> str:
+    """The same of a duty, up to a share of whose torques a line holds; None where not known."""
+    if share is None:
+        return "lower the torques of the duty"
+    if share <= 0.0:
+        return "no torques of the duty are low enough"
+    return f"lower the torques of the duty to {rounded_down(100.0 * share):g} % of what they are"
+
+
+def lower_lasting(torque: float, requirements: Requirements) -> str:
+    """The same of the continuous torque, by which closed forms judge a duty too."""
+    which = "continuous torque"
+    if requirements.load_cases:
+        which += " (this screen's; `check` judges the duty)"
+    return lower_to(torque, which)
+
+
+def lower_screened(state: GearboxState, load: RigidMaxima, share: float) -> str:
+    """What to do where closed forms let a part bear but a share of one of their two torques."""
+    if share <= 0.0:
+        return "choose a bearing with catalogue ratings"
+    asked, torque = state.design.requirements, load.torque * share
+    if load is state.rigid_peak:
+        return lower_peak(torque, asked.continuous_torque)
+    return lower_lasting(torque, asked)
+
+
+def softer_contact(thickness: float, pressure: float, limit: float, lower: Lower) -> str:
     """Say what brings a Hertz pressure of the rigid law down to a limit: it grows with sqrt(T/b).
 
     Where parts yield a thicker disc is a stiffer one too, and shares with fewer teeth.
@@ -64,13 +89,13 @@ def softer_contact(thickness: float, torque: float, pressure: float, limit: floa
     ----------
     thickness : float
         b of a disc, m.
-    torque : float
-        T, N m.
+    lower : callable
+        What to say of a share of the torque.
     """
     if min(limit, pressure) <= 0.0:
         return ""
     share = (pressure / limit) ** 2
-    words = f"{lower_to(torque / share)}, or "
+    words = f"{lower(1.0 / share)}, or "
     if share <= _MOST_THICKENING:
         words = f"raise disc_thickness to {rounded_up(thickness * 1e3 * share):g} mm, or " + words
     return words
@@ -141,7 +166,7 @@ def _compliance(material: Material) -> float:
 def stronger_capacity(state: GearboxState, torque: float, needed: float) -> str:
     """Remedy for a capacity in shear, which grows with the square of the pin's diameter."""
     thicker = state.design.reducer.output_pins.diameter * math.sqrt(needed / torque)
-    lower = f"lower the peak torque to {torque_words(torque)}"
+    lower = lower_peak(torque, state.design.requirements.continuous_torque, "peak torque")
     return ", or ".join((*_thicker_pins(state, thicker), lower))
 
 

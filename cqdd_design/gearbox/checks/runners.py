@@ -12,7 +12,7 @@ from cqdd_design.gearbox.cam_bearing import BearingResult
 from cqdd_design.gearbox.carrier import slender_bending_arm
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.allowables import UNEVEN_SHARING, Allowable
-from cqdd_design.gearbox.checks.remedies import lower_torque
+from cqdd_design.gearbox.checks.remedies import lower_screened
 from cqdd_design.gearbox.checks.state import GearboxState, build_check
 from cqdd_design.gearbox.loads import RigidMaxima
 from cqdd_design.gearbox.pin_beam import HELD
@@ -84,7 +84,7 @@ def _needles(
             allowables.STATIC_SAFETY,
             f"{cage.designation}: {static:.0f} N/{found.peak_load:.1f} N = {safety:.3f}",
             f"use {seat.larger}; or "
-            + lower_torque(requirements.peak_torque, safety / allowables.STATIC_SAFETY),
+            + lower_screened(state, state.rigid_peak, safety / allowables.STATIC_SAFETY),
         ),
         build_check(
             f"{seat.prefix}-LIFE",
@@ -92,7 +92,7 @@ def _needles(
             hours,
             f"{cage.designation}: 1e6 ({dynamic:.0f} N/{found.continuous_load:.1f} N)^"
             f"{found.exponent:.3g}/(60 x {found.speed * 30.0 / math.pi:.0f} rpm) = {life:.0f} h",
-            f"use {seat.larger}; or " + lower_torque(requirements.continuous_torque, share),
+            f"use {seat.larger}; or " + lower_screened(state, state.rigid_continuous, share),
         ),
         build_check(
             f"{seat.prefix}-RACEWAY",
@@ -106,17 +106,17 @@ def _needles(
 
 def _ring_pins(state: GearboxState) -> tuple[Check, ...]:
     """Check the bending of the pins that rollers leave free between housing and clamp."""
-    reducer, requirements = state.design.reducer, state.design.requirements
+    reducer = state.design.reducer
     material, diameter = find_material(reducer.ring_material), reducer.ring_pin_diameter
     stack = reducer.disc_count, reducer.disc_thickness, reducer.disc_spacing
     arm = float(slender_bending_arm(*stack, HELD["both"], 4.0))
     # A pin of the ring is pushed outward, and by the one disc that passes.
     continuous = allowables.pin_bending_limit_continuous(material, duty_reverses=False)
 
-    def one(check_id: str, load: RigidMaxima, allowed: Allowable, torque: float) -> Check:
+    def one(check_id: str, load: RigidMaxima, allowed: Allowable) -> Check:
         force = UNEVEN_SHARING * load.ring_force
         stress = float(output_pins.bending_stress(force, arm, diameter))
-        remedy = lower_torque(torque, allowed.value / stress)
+        remedy = lower_screened(state, load, allowed.value / stress)
         if allowed.value > 0.0:
             thicker = rounded_up(diameter * 1e3 * (stress / allowed.value) ** (1.0 / 3.0))
             remedy = f"raise ring_pin_diameter to {thicker:g} mm, or {remedy}"
@@ -132,11 +132,10 @@ def _ring_pins(state: GearboxState) -> tuple[Check, ...]:
 
     peak = allowables.pin_limit_peak(material)
     return (
-        one("RING-PIN-BENDING-PEAK", state.rigid_peak, peak, requirements.peak_torque),
+        one("RING-PIN-BENDING-PEAK", state.rigid_peak, peak),
         one(
             "RING-PIN-BENDING-CONTINUOUS",
             state.rigid_continuous,
             continuous,
-            requirements.continuous_torque,
         ),
     )

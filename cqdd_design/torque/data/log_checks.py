@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -137,6 +137,22 @@ def check_signals(
                 "the units of torque and angles."
             )
     return tuple(warnings)
+
+
+def check_limit(torques: Sequence[FloatArray], limit: float) -> tuple[str, ...]:
+    """A warning where recorded torques (N m) are beyond what the joint can be asked for (N m).
+
+    Short ones may be: a wall or the load pushes back, or the sensor is noisy.
+    """
+    every = np.abs(np.concatenate(torques))
+    beyond = float(np.mean(every > limit * (1.0 + 1e-9)))
+    if beyond == 0.0:
+        return ()
+    return (
+        f"the logs reach {float(every.max()):.4g} N*m, beyond the torque limit of {limit:g} N*m "
+        f"for {100.0 * beyond:.2g} % of the samples; torques asked for are cut there, so check "
+        "--torque-limit unless a wall or the load pushed back.",
+    )
 
 
 def velocity_factor(

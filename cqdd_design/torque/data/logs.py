@@ -14,7 +14,7 @@ import numpy as np
 
 from cqdd_design.errors import UsageError
 from cqdd_design.torque.data.episodes import DataSet, Episode, FloatArray
-from cqdd_design.torque.data.log_checks import check_signals, check_time
+from cqdd_design.torque.data.log_checks import check_limit, check_signals, check_time
 from cqdd_design.torque.data.log_files import LogMap, read_columns
 from cqdd_design.torque.data.sensing import LEAST_OVERSAMPLING, Filter
 from cqdd_design.version import __version__
@@ -142,6 +142,7 @@ def import_logs(
         )
     most = max(float(np.max(np.abs(one.columns["torque"]))) for one in episodes)
     limit = most if torque_limit is None else torque_limit
+    tally.warnings += check_limit([one.columns["torque"] for one in episodes], limit)
     facts = {
         "source": "logs",
         "version": __version__,
