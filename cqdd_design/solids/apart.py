@@ -4,10 +4,10 @@ A piece that moves sweeps the prism under its shape; it can leave where that pri
 of what is still in place. Screws leave on the side of their heads, and what they are screwed into
 waits for them; nuts leave along their threads. Where no single thing can move, a unit does: one
 thing with all that it pushes before it, such as the carrier with discs and shaft, which is put
-together on the bench (Wilson and Latombe 1994, blocking graphs). Spacers, such as a carrier's
-columns, leave as soon as they can: put in any earlier they would have nothing to stand on. What is
-bonded into a part that comes in later, as magnets into their bell, and weights on it, leaves with
-it and is a unit too. Put together is the same backwards.
+together on the bench (Wilson and Latombe 1994, blocking graphs). Columns, pins and their sleeves
+leave as soon as they can: put in any earlier they would have nothing to stand in. Pins that cannot
+before their ring leave with it. What is bonded into a part that comes in later, as magnets into
+their bell, and weights on it, leaves with it and is a unit too. Put together is the same backwards.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ import numpy as np
 from cqdd_design.geometry.contours import FloatArray, PlanarPart
 from cqdd_design.solids.counterweights import NAMES as WEIGHTS
 from cqdd_design.solids.disassembly import disassembly_order
-from cqdd_design.solids.features.kinds import AxialThread, Joint, Shoulder
+from cqdd_design.solids.features.kinds import AxialThread, Joint
 from cqdd_design.solids.layers import Layer
 from cqdd_design.solids.stations import Station, stations
 
@@ -46,6 +46,8 @@ _EDGE = 1e-4
 """Radii that overlap by less touch, mm."""
 _LEVEL = 1e-7
 """Heights closer than this are one, m."""
+_IN_POCKETS = {"ring pin", "ring roller", "ring needle cage"}
+"""Parts that a ring holds in its pockets."""
 Way = Literal["up", "down"]
 
 
@@ -100,17 +102,20 @@ def taken_apart(design: Design, parts: Sequence[Part]) -> tuple[tuple[Step, ...]
     middle = len(order) / 2.0
     outward = sorted(range(len(order)), key=lambda place: -abs(place - middle))
     things = [_Thing(design, found[order[place]]) for place in outward]
-    things.sort(key=lambda thing: not thing.is_spacer)
+    things.sort(key=lambda thing: not thing.is_loose)
     return _take(things, "", _bonds(things))
 
 
 def _bonds(things: Sequence[_Thing]) -> _Bonds:
     """Rotor and stator of a motor with what carries them, if that is not the housing itself.
 
-    Balance weights go with the bell that they are bonded on.
+    Balance weights go with the bell that they are bonded on, pins with the ring whose pockets they
+    stand in; these may leave it, but it does not leave them.
     """
     bonds: _Bonds = {}
     for host in things:
+        if host.station.part.name == "ring":
+            bonds[id(host)] = [one for one in things if one.station.part.name in _IN_POCKETS]
         for joint in host.station.part.features:
             if not isinstance(joint, Joint) or joint.kind != "bonded":
                 continue
@@ -244,10 +249,9 @@ class _Thing:
         return self.station.off_axis and self._head is not None
 
     @property
-    def is_spacer(self) -> bool:
-        """Whether it stands off the axis between two faces that are clamped on it."""
-        faces = {one.facing for one in self.station.part.features if isinstance(one, Shoulder)}
-        return self.station.off_axis and faces == {"up", "down"}
+    def is_loose(self) -> bool:
+        """Whether it stands off the axis without a head: a column, a pin or its sleeve."""
+        return self.station.off_axis and self._head is None
 
     @cached_property
     def _head(self) -> Way | None:

@@ -1,4 +1,4 @@
-"""Columns of a carrier are put in when they have something to stand on."""
+"""Columns and pins are put in when they have something to stand in."""
 
 from __future__ import annotations
 
@@ -30,3 +30,35 @@ def test_columns_come_between_plate_and_cap_through_discs_that_are_there(name: s
     assert first < at
     assert at == last - 1
     assert order.index("disc") < at < order.index("column screw")
+
+
+PINS = {"reducer.ring_type": "pinwheel", "reducer.eccentricity": "1 mm"}
+ROLLERS = PINS | {"reducer.ring.roller_diameter": "7 mm", "reducer.ring_pin_diameter": "4 mm"}
+
+
+@pytest.mark.parametrize("change", [PINS, ROLLERS], ids=["pins", "rollers"])
+@pytest.mark.parametrize("discs", [1, 2])
+def test_pins_of_a_ring_come_into_pockets_that_are_there(
+    change: dict[str, str], discs: int
+) -> None:
+    # They stood round a disc, held by nothing, and the ring came over them much later.
+    paper = resolve(load_design(DESIGNS / "cqdd-10.toml"))
+    machine = paper.changed(change | {"reducer.disc_count": discs})
+    steps, whole = taken_apart(machine.design, machine.parts)
+    assert whole
+    order = [step.moved[0].part.name for step in reversed(steps)]
+    last = len(order) - order[::-1].index("ring pin") - 1
+    assert order.index("ring") < order.index("ring pin")
+    assert last < order.index("ring clamp")
+
+
+def test_output_pins_come_in_between_cap_and_plate() -> None:
+    # They lay in the housing before the cap that they stand in.
+    paper = resolve(load_design(DESIGNS / "cqdd-10.toml"))
+    plain = {"reducer.output_pins.diameter": "3.5 mm"}
+    machine = paper.changed(plain | {"reducer.disc_count": 3})
+    steps, whole = taken_apart(machine.design, machine.parts)
+    assert whole
+    order = [step.moved[0].part.name for step in reversed(steps)]
+    assert order.index("carrier cap") < order.index("disc 1") < order.index("dowel pin")
+    assert order.index("dowel pin") == order.index("carrier plate") - 1

@@ -504,3 +504,24 @@ def test_every_feature_of_every_part_is_on_its_sheet(name, change, paper_design_
     assert len(assembly.order()) >= len(machine.parts)
     free = grease_fill(machine).free
     assert 0.0 < free < np.pi * machine.layout.pack.ring_radius**2 * 0.1
+
+
+@pytest.mark.parametrize("outer", ["72 mm", "69.1 mm", "71.3 mm"])
+def test_lengths_run_from_a_face_with_a_circle(machine, outer):
+    # Faces at odd heights are 0.1 nm off their rounded ones: no circle was drawn, but an arrow.
+    for part in turned_parts(machine.changed({"reducer.ring.outer_diameter": outer})):
+        facts = PartFacts(part, machine.given)
+        lengths = plan_sheet(facts).section.lengths
+        sheet = new_sheet(1.0)
+        lengths.draw(sheet, 0j, [0.0] * len(lengths.marks))
+        assert len(sheet.drawing.modelspace().query("CIRCLE")) == 1, part.name
+        assert [abs(value) < NEAR for _, value, _ in lengths.marks].count(True) == 1
+
+
+def test_a_pin_drawn_at_the_middle_of_its_zone_has_one_diameter(machine):
+    # Beside 3.5 f9 it had 3.475, the middle of that zone, without a tolerance.
+    pins = machine.changed({"reducer.output_pins.diameter": "3.5 mm"})
+    pin = next(part for part in pins.parts if part.name == "dowel pin")
+    found = [text for text in texts_of(svg_text(drawn(pin, pins), "")) if text.startswith("\u00d8")]
+    assert len(found) == 1
+    assert has_fit(found, next(f for f in pin.features if isinstance(f, Seat)))

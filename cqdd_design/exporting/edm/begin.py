@@ -37,8 +37,9 @@ if TYPE_CHECKING:
 TABS_PER_CONTOUR = 8.0
 """A tab takes no more than this fraction of a contour."""
 _PER_SEGMENT = 256
-_NO_ARC = 1e-7
-"""Shorter pieces of an arc are none, m."""
+NO_PIECE = 10e-6
+"""Shorter pieces of an arc are none, m: coordinates to 0.1 um would turn them, and with them the
+way to the wire. A cut begins or ends at the joint instead."""
 
 
 def tab_of(contour: Contour, wanted: float = DEFAULTS.tab_length) -> float:
@@ -92,8 +93,8 @@ def _from_place(contour: ArcContour, place: float) -> ArcContour:
     place %= float(ends[-1])
     segment = int(np.searchsorted(ends, place, side="right"))
     left = float(ends[segment]) - place
-    if min(left, float(lengths[segment]) - left) < _NO_ARC:
-        first = -segment - (left < _NO_ARC)
+    if min(left, float(lengths[segment]) - left) < NO_PIECE:
+        first = -segment - (2.0 * left < float(lengths[segment]))
         return ArcContour(np.roll(contour.points, first, axis=0), np.roll(contour.bulges, first))
     share = 1.0 - left / float(lengths[segment])
     at = as_complex(contour.evaluate(np.array([share]))[0])[segment]

@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.errors import ReadBackError
-from cqdd_design.exporting.edm.begin import begun
+from cqdd_design.exporting.edm.begin import NO_PIECE, begun
 from cqdd_design.exporting.edm.start_holes import start_holes
 from cqdd_design.exporting.options import DEFAULTS
 from cqdd_design.geometry.contours import (
@@ -233,7 +233,8 @@ def split_for_tab(contour: ArcContour, tab: float) -> tuple[OpenChain, OpenChain
     Parameters
     ----------
     tab : float
-        Length of the tab, m, below that of the contour.
+        Length of the tab, m, below that of the contour; it begins at a joint where one is within
+        `NO_PIECE`.
 
     Returns
     -------
@@ -246,11 +247,18 @@ def split_for_tab(contour: ArcContour, tab: float) -> tuple[OpenChain, OpenChain
     ends = np.cumsum(lengths)
     place = float(ends[-1]) - tab
     segment = int(np.searchsorted(ends, place))
-    share = 1.0 - (float(ends[segment]) - place) / float(lengths[segment])
+    left = float(ends[segment]) - place
+    joints = np.append(start, start[0])
+    first = segment + (2.0 * left < float(lengths[segment]))
+    if min(left, float(lengths[segment]) - left) < NO_PIECE and 0 < first < len(start):
+        return (
+            OpenChain(joints[: first + 1], contour.bulges[:first]),
+            OpenChain(joints[first:], contour.bulges[first:]),
+        )
+    share = 1.0 - left / float(lengths[segment])
     points, _ = contour.evaluate(np.array([share]))
     at = complex(*points[segment, 0])
     quarter = math.atan(float(contour.bulges[segment]))
-    joints = np.append(start, start[0])
     before = OpenChain(
         np.append(joints[: segment + 1], at),
         np.append(contour.bulges[:segment], math.tan(share * quarter)),

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from cqdd_design.errors import CatalogError
 from cqdd_design.geometry.contours import (
     ArcContour,
     Circle,
@@ -211,15 +212,27 @@ def spoken_for(cylinder: Cylinder, features: Iterable[Feature]) -> bool:
 
 
 def _lies_on(feature: Seat | AxialThread, cylinder: Cylinder) -> bool:
-    size = feature.diameter if isinstance(feature, Seat) else feature.core
     centre = complex(*feature.centre) if isinstance(feature, Seat) else 0j
     return (
         feature.inside == cylinder.inside
-        and abs(0.5 * size - cylinder.radius) < 1e-6
+        and _is_size_of(feature, 2.0 * cylinder.radius)
         and abs(centre - cylinder.centre) < 1e-6
         and feature.bottom < cylinder.top + SAME
         and feature.top > cylinder.bottom - SAME
     )
+
+
+def _is_size_of(feature: Seat | AxialThread, diameter: float) -> bool:
+    """Whether a body has a feature's diameter, or one of its zone, as pins drawn at their mean."""
+    if isinstance(feature, AxialThread):
+        return abs(diameter - feature.core) < 2e-6
+    if abs(diameter - feature.diameter) < 2e-6:
+        return True
+    try:
+        limits = feature.limits
+    except CatalogError:
+        return False
+    return limits.lower <= diameter - feature.diameter <= limits.upper
 
 
 def levels(shape: Stack) -> tuple[float, ...]:

@@ -29,6 +29,8 @@ _ARROWS = 7.0
 """Below this a dimension's arrows point at it from outside, mm."""
 _CLOSE = 5.0
 """Lengths nearer to each other have strokes instead of arrows, mm."""
+_ZERO = 5e-5
+"""Lengths below this are written as 0, mm."""
 _CLEAR = 1.0
 """From a datum's box to extension lines above and below it, mm."""
 _DATUM = 12.0
@@ -244,7 +246,7 @@ class Lengths:
         at = sorted(zip(self.marks, places, bottoms, strict=True))
         for (x, value, either), place, bottom in at:
             sheet.line(shift + complex(x, bottom - 0.8), shift + complex(x, y - 1.2))
-            if abs(x - self.origin) < 1e-9:
+            if abs(value) < _ZERO:
                 sheet.circle(shift + complex(x, y), 1.2)
             elif min((abs(x - other) for other in rising if other != x), default=9.0) < _CLOSE:
                 # No room for an arrow: an oblique stroke (ISO 129-1).
@@ -259,5 +261,5 @@ class Lengths:
             )
         ends = [x for x, _, _ in self.marks]
         for end in (min(ends), max(ends)):
-            if abs(end - self.origin) > 1e-9:
+            if abs(end - self.origin) > _ZERO:
                 sheet.line(shift + complex(self.origin, y), shift + complex(end, y))
