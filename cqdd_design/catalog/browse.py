@@ -7,8 +7,10 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from cqdd_design.catalog.bearings import bearings
+from cqdd_design.catalog.circlips import circlips
 from cqdd_design.catalog.finishes import finishes, rubbing_limits
 from cqdd_design.catalog.fits import fit_zones
+from cqdd_design.catalog.lock_nuts import lock_nuts
 from cqdd_design.catalog.lubricants import lubricants
 from cqdd_design.catalog.materials import materials
 from cqdd_design.catalog.motors import motors
@@ -96,6 +98,8 @@ COLUMNS = {
     "lubricants": ("viscosity_mm2_s", "hot_viscosity_mm2_s", "coldest_degC", "hottest_degC"),
     "finishes": ("mean_roughness_um", "rms_roughness_um", "source"),
     "rubbing": ("limit_MPa_m_s", "source"),
+    "circlips": ("groove_diameter_mm", "lug_height_mm", "beam_width_mm", "free_diameter_mm"),
+    "nuts": ("thread_diameter_mm", "pitch_length_mm", "outer_diameter_mm", "width_mm", "mass_kg"),
 }
 
 
@@ -131,6 +135,8 @@ def catalogues() -> dict[str, dict[str, Row]]:
         "lubricants": _rows(lubricants()),
         "finishes": _rows(finishes()),
         "rubbing": _rows(rubbing_limits()),
+        "circlips": _rows(circlips()),
+        "nuts": _rows(lock_nuts()),
     }
 
 

@@ -23,7 +23,8 @@ def catalog(
         typer.Argument(
             metavar="[[list|show] NAME]",
             help="A catalogue to list (materials, motors, bearings, screws, fits, "
-            "lubricants, finishes, rubbing) or a row to show; without a name, what there is.",
+            "lubricants, finishes, rubbing, circlips, nuts) or a row to show; without a name, what "
+            "there is.",
             autocompletion=catalogued,
         ),
     ] = None,

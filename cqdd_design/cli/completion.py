@@ -91,6 +91,8 @@ catalogued = _starting(
         *_CATALOGUES,
         "fits",
         "rubbing",
+        "circlips",
+        "nuts",
         *_rows("materials"),
         *_rows("motors"),
     ]

@@ -1,4 +1,4 @@
-"""The joint of a third disc's loose cam on the eccentric shaft, and the torque that it carries.
+"""The joint of a third disc's loose cam on the eccentric shaft: its torque, and the cam's stress.
 
 A disc's force on its eccentric acts at the eccentric's axis, off the shaft's by the eccentricity:
 about the shaft's axis it is a torque, all of which goes through the cam's joint (static
@@ -7,6 +7,7 @@ equilibrium of the cam; its bearing rolls).
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +16,7 @@ from cqdd_design.catalog.adhesives import joint_shear
 from cqdd_design.catalog.bearings import shaft_material
 from cqdd_design.catalog.fits import fit_limits
 from cqdd_design.catalog.materials import Material, find_material
+from cqdd_design.gearbox.eccentric_ring import PressedRing, pressed_ring
 from cqdd_design.gearbox.pack_loads import PackLoads
 from cqdd_design.machine.machine import Machine
 from cqdd_design.machine.shaft import disc_heights
@@ -33,8 +35,10 @@ class LooseCam:
         Of its disc in the loads of a pack.
     material : Material
         Of the cam, and of the shaft.
-    least_interference : float
+    least_interference, most_interference : float
         Of its press fit by the zones that are drawn, m on the diameter; negative is play.
+    lobe, throw : float
+        Diameter of its outside, and how far that stands off the shaft's axis, m.
     """
 
     diameter: float
@@ -42,6 +46,25 @@ class LooseCam:
     place: int
     material: Material
     least_interference: float
+    most_interference: float
+    lobe: float
+    throw: float
+
+    @property
+    def wall(self) -> float:
+        """Between bore and outside where it is thinnest, m."""
+        return 0.5 * (self.lobe - self.diameter) - self.throw
+
+    def pressed(self) -> PressedRing:
+        """Stress and growth in the tightest fit. Cam and shaft are of one steel, and as warm."""
+        return pressed_ring(
+            0.5 * self.diameter, 0.5 * self.lobe, self.throw, self.most_interference, self.material
+        )
+
+    def push(self, loads: PackLoads) -> float:
+        """Most pressure of its disc's force on the joint, as a cosine about half of it, Pa."""
+        most = float(np.abs(loads.turning[:, :, self.place]).max())
+        return 4.0 * most / (math.pi * self.diameter * self.length)
 
     def torque(self, loads: PackLoads) -> float:
         """Greatest torque about the shaft's axis in the joint over cases and crank angles, N m."""
@@ -74,4 +97,7 @@ def loose_cam(machine: Machine) -> LooseCam | None:
         place=int(np.argmax(middles)),
         material=find_material(shaft_material(pack.cam.bearing)),
         least_interference=core.lower - hole.upper,
+        most_interference=core.upper - hole.lower,
+        lobe=pack.cam.bearing.bore_diameter,
+        throw=pack.eccentricity,
     )

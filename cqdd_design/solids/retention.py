@@ -15,6 +15,7 @@ import numpy as np
 
 from cqdd_design.geometry.contours import Circle, ComplexArray, PlanarPart
 from cqdd_design.solids.counterweights import NAMES as WEIGHTS
+from cqdd_design.solids.features.zones import DISC_BORE, PRESSED_CAM
 from cqdd_design.solids.layout import Layout
 from cqdd_design.solids.part import Instance, Part
 from cqdd_design.solids.stations import Span, Station, ring_of, stations
@@ -45,8 +46,8 @@ _FASTENED = (
     ("encoder screw", "motor cover", "its thread"),
     *((weight, "rotor bell", "bond on the bell") for weight in WEIGHTS),
     ("encoder magnet", "eccentric shaft", "bond"),
-    ("eccentric cam", "eccentric shaft", "press fit p6"),
-    ("cam bearing", "disc", "press fit N7"),
+    ("eccentric cam", "eccentric shaft", f"press fit {PRESSED_CAM} and bond"),
+    ("cam bearing", "disc", f"press fit {DISC_BORE}"),
     ("shaft shim", "carrier plate", "in its seat under the shoulder"),
     ("output shim", "output cover", "in its seat under the lip"),
     ("bearing nut", "carrier plate", "its thread"),

@@ -1,10 +1,10 @@
-"""The line of a third disc's loose cam, which nothing but press fit and bond keeps in its place."""
+"""Lines of a third disc's loose cam, which nothing but its bond keeps in its place."""
 
 from __future__ import annotations
 
 from cqdd_design.catalog.adhesives import ROTOR_COMPOUND
 from cqdd_design.errors import CatalogError, ContactError, GeometryError
-from cqdd_design.gearbox.checks.allowables import GREASE_MOST, bond_limit
+from cqdd_design.gearbox.checks.allowables import GREASE_MOST, bond_limit, shaft_limit_peak
 from cqdd_design.gearbox.checks.remedies import lower_peak
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.machine import Machine
@@ -13,16 +13,45 @@ from cqdd_design.machine.loose_cam import LooseCam, loose_cam
 from cqdd_design.machine.temperatures import MachineTemperatures
 from cqdd_design.results import Check
 
-CAM_JOINT = "CAM-JOINT"
+CAM_JOINT, CAM_WALL = "CAM-JOINT", "SHAFT-CAM-WALL"
 _MEGA = 1e6
+_THICKER = "a cam bearing with a larger bore, or less eccentricity, leaves a thicker core and wall"
 _WIDER = "a cam bearing with a larger bore leaves a thicker core, a wider one a longer joint"
+
+
+def cam_lines(machine: Machine, warm: MachineTemperatures | None) -> tuple[Check, ...]:
+    """Bond and wall of the loose cam; none for a machine that has no such cam."""
+    bond = cam_line(machine, warm)
+    return () if bond is None else (_wall(machine), bond)
+
+
+def _wall(machine: Machine) -> Check:
+    """The thin side of the cam in its tightest fit, with its disc's force at the peak torque."""
+    try:
+        cam = loose_cam(machine)
+        assert cam is not None
+        pressed, push = cam.pressed(), cam.push(machine.peak_pack)
+    except (CatalogError, ContactError, GeometryError) as error:
+        return build_check(CAM_WALL, None, None, error.message, "see why it is not known")
+    limit = shaft_limit_peak(cam.material)
+    return build_check(
+        CAM_WALL,
+        pressed.mises(push) / _MEGA,
+        limit.value / _MEGA,
+        f"wall of {1e3 * cam.wall:.3g} mm round a core of {1e3 * cam.diameter:.4g} mm at "
+        f"{1e6 * cam.most_interference:.0f} um, the most that its zones allow: "
+        f"{pressed.hoop / _MEGA:.0f} MPa round it and {pressed.across / _MEGA:.0f} across, of the "
+        f"disc's force {push / _MEGA:.1f} more; the lobe grows by {1e6 * pressed.growth:.1f} um "
+        f"and is {1e6 * pressed.out_of_round:.1f} um out of round",
+        _THICKER,
+        basis=limit.basis,
+    )
 
 
 def cam_line(machine: Machine, warm: MachineTemperatures | None) -> Check | None:
     """The bond of the loose cam at the peak torque; None for a machine that has no such cam.
 
-    The press fit is not counted: its zones may leave no interference, or 1 um, which is less than
-    what smoothing of ground faces takes (DIN 7190-1).
+    The press fit is not counted: its zones may leave a play of 10 um.
 
     Parameters
     ----------
@@ -71,7 +100,6 @@ def _judged(
         )
     torque, lasting = cam.torque(loads), cam.torque(machine.life.pack)
     value = cam.shear(torque)
-    fit = max(cam.least_interference, 0.0)
     return build_check(
         CAM_JOINT,
         value / _MEGA,
@@ -79,7 +107,13 @@ def _judged(
         f"{torque:.3g} N*m of the third disc's force on its cam at {peak:g} N*m, on a core of "
         f"{1e3 * cam.diameter:.4g} mm, bonded over {1e3 * cam.length:.3g} mm at {hot:.0f} degC"
         f"{guessed}: {value / _MEGA:.2f} MPa, over the duty {cam.shear(lasting) / _MEGA:.2f} MPa; "
-        f"the press fit, of {1e6 * fit:.0f} um at least, counts for nothing",
+        f"the press fit counts for nothing: its zones may leave {_least(cam)}",
         remedy,
         basis=limit.basis,
     )
+
+
+def _least(cam: LooseCam) -> str:
+    """The loosest fit in words."""
+    least = 1e6 * cam.least_interference
+    return f"{-least:.0f} um of play" if least < 0.0 else f"{least:.0f} um of interference"

@@ -23,7 +23,7 @@ from cqdd_design.machine import Machine
 from cqdd_design.machine.cures import SEARCHED_CASES, torques_that_hold
 from cqdd_design.results import Check
 from cqdd_design.verdict.asked import asked_lines
-from cqdd_design.verdict.cam_line import cam_line
+from cqdd_design.verdict.cam_line import cam_lines
 from cqdd_design.verdict.creep_lines import creep_lines
 from cqdd_design.verdict.drawn import yield_line
 from cqdd_design.verdict.evidence import Evidence
@@ -56,7 +56,7 @@ def verdict_lines(evidence: Evidence) -> tuple[Check, ...]:
         *shaft_lines(machine),
         *rotor_lines(machine),
         *joint_lines(machine, evidence.temperatures),
-        *((cam,) if (cam := cam_line(machine, evidence.temperatures)) is not None else ()),
+        *cam_lines(machine, evidence.temperatures),
         *screw_lines(machine),
         *retention_lines(machine, evidence.temperatures),
         *_rubbing(machine),

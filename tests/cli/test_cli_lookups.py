@@ -41,6 +41,8 @@ def test_catalog_shows_a_row(cqdd, words):
         ("bearings", "6902"),
         ("screws", "metric 4 mm M3"),
         ("fits", "f9 3-6 mm"),
+        ("circlips", "DIN 472 - 65 x 2.5"),
+        ("nuts", "KM 10"),
     ],
 )
 def test_catalog_lists_every_row_with_its_source(cqdd, kind, row):

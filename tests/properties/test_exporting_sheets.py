@@ -335,7 +335,25 @@ def test_the_sheet_of_a_plastic_part_names_the_inserts_in_its_threads(printed):
 def test_the_loose_cam_has_a_direction(machine):
     three = resolve(machine.given.replacing({"reducer.disc_count": 3}))
     (said,) = (note for note in notes_of(three) if "Eccentric cam pressed" in note)
-    assert "lobe 3 at 240\u00b0 from lobe 1, \u00b10.21\u00b0" in said
+    assert "lobe 3 is at 240\u00b0 from lobe 1, \u00b10.21\u00b0" in said
+    assert "axis within dia 0.012 of its place to A-B" in said
+
+
+def test_the_sheet_of_a_loose_cam_says_when_it_is_ground(machine):
+    """Its lobe, before: the order of assembly has a disc and a bearing on the shaft by then."""
+    three = resolve(machine.given.replacing({"reducer.disc_count": 3}))
+    cam = next(part for part in three.parts if part.name == "eccentric cam")
+    (said,) = (one for one in part_sheet.notes(PartFacts(cam, three.given)) if "before" in one)
+    assert "bonded over the whole bore with LOCTITE 648" in said
+    grown = 9.0 * 10.3 / 15.0
+    assert f"At most 9 \u00b5m of interference make it grow by {grown:.1f} \u00b5m" in said
+    order = AssemblyFacts(three).order()
+    first = [one.split(",")[0] for one in order]
+    assert first.index("eccentric shaft") > first.index("disc 2")
+    assert first.index("eccentric cam") > first.index("cam bearing 2")
+    lobe = next(one for one in cam.features if getattr(one, "name", "") == "lobe 3")
+    assert lobe.zone == "g5"
+    assert_legible(drawn(cam, three))
 
 
 @pytest.mark.parametrize("name", ["cqdd-10", "printed-13"])

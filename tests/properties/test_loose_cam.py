@@ -19,7 +19,8 @@ from cqdd_design.machine.loose_cam import LooseCam, loose_cam
 from cqdd_design.machine.shaft import disc_heights
 from cqdd_design.machine.temperatures import MachineTemperatures
 from cqdd_design.sizing.shafts import AT_PEAK, BONDS, SHAFT
-from cqdd_design.verdict.cam_line import CAM_JOINT, cam_line
+from cqdd_design.solids.features import zones
+from cqdd_design.verdict.cam_line import CAM_JOINT, CAM_WALL, cam_line, cam_lines
 
 DESIGNS = Path(__file__).resolve().parents[2] / "designs"
 
@@ -51,6 +52,7 @@ def test_only_a_third_disc_has_a_loose_cam(machine: Machine, count: int) -> None
     other = machine.changed({"reducer.disc_count": count})
     assert loose_cam(other) is None
     assert cam_line(other, None) is None
+    assert cam_lines(other, None) == ()
 
 
 def test_its_torque_is_eccentricity_times_the_force_across_it(
@@ -79,10 +81,56 @@ def test_it_is_the_disc_at_the_height_of_the_drawn_cam(machine: Machine, cam: Lo
     assert cam.length == pytest.approx(sum(one.height for one in drawn.shape.layers))
 
 
-def test_the_press_fit_may_leave_nothing(cam: LooseCam) -> None:
-    """ISO 286-2, over 10 to 18 mm: H7 is 0 to 18 um, p6 18 to 29 um."""
+def test_the_press_fit_may_leave_play(machine: Machine, cam: LooseCam) -> None:
+    """ISO 286-2, over 10 to 18 mm: H6 is 0 to 11 um, k5 1 to 9 um."""
     assert 10e-3 < cam.diameter < 18e-3
-    assert cam.least_interference == pytest.approx(0.0, abs=1e-9)
+    assert cam.least_interference == pytest.approx(-10e-6, abs=1e-9)
+    assert cam.most_interference == pytest.approx(9e-6, abs=1e-9)
+    said = cam_line(machine, None)
+    assert said is not None
+    assert "10 um of play" in said.substituted
+
+
+def test_the_thin_side_bears_its_fit(
+    machine: Machine, cam: LooseCam, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The fit H7/p6, 29 um at most, tears it: 1.6 E delta/d. A wider bore of the bearing cures."""
+    wall, _ = cam_lines(machine, None)
+    assert wall.id == CAM_WALL
+    assert wall.status == "pass"
+    assert wall.limit == pytest.approx(834.0 / 1.2)
+    stretched = 1e-6 * cam.material.youngs_modulus * cam.most_interference / cam.diameter
+    alone = 1e-6 * cam.pressed().mises()
+    assert 1.3 * stretched < alone < 2.0 * stretched
+    push = 1e-6 * cam.push(machine.peak_pack)
+    assert alone < wall.value < alone + push
+    monkeypatch.setattr(zones, "PRESSED_CAM", "p6")
+    monkeypatch.setattr(zones, "CAM_BORE", "H7")
+    torn = cam_lines(machine, None)[0]
+    assert torn.status == "fail"
+    assert "larger bore" in torn.remedy
+    for cure in ({"reducer.cam_bearing.designation": "6903"}, {"reducer.eccentricity": "1.2 mm"}):
+        other = replace(resolve(machine.design.replacing(cure)), stiff=True)
+        assert cam_lines(other, None)[0].margin > 1.05 * torn.margin
+
+
+def test_its_disc_pushes_on_it_as_a_cosine(machine: Machine, cam: LooseCam) -> None:
+    """Over half the joint p cos(angle) holds F = p pi d l/4."""
+    loads = machine.peak_pack
+    force = np.abs(loads.on_shaft[:, :, cam.place]).max()
+    angles = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 2001)
+    held = np.trapezoid(np.cos(angles) ** 2, angles) * 0.5 * cam.diameter * cam.length
+    assert cam.push(loads) == pytest.approx(force / held, rel=1e-6)
+
+
+def test_its_wall_is_what_is_drawn(machine: Machine, cam: LooseCam) -> None:
+    assert cam.wall == pytest.approx(0.75e-3)
+    (drawn,) = (part for part in machine.parts if part.name == "eccentric cam")
+    lobe = drawn.shape.layers[-1].shape
+    off = np.hypot(*lobe.outer.centre)
+    assert lobe.outer.radius - off - lobe.holes[0].radius == pytest.approx(cam.wall)
+    bore = next(one for one in drawn.features if getattr(one, "inside", False))
+    assert (bore.zone, 2.0 * bore.diameter) == ("H6", pytest.approx(2.0 * cam.diameter))
 
 
 def test_the_line_says_what_the_joint_bears(machine: Machine, cam: LooseCam) -> None:

@@ -60,14 +60,14 @@ ROWS = (
         "MPa",
         "max",
         "tau = 2 T/(pi d^2 l), T = e F_t of its disc's force <= strength of the compound x share "
-        f"at its temperature/{limits.BOND_SAFETY:g}; the press fit, whose zones may leave nothing, "
+        f"at its temperature/{limits.BOND_SAFETY:g}; the press fit, whose zones may leave play, "
         "counts for nothing",
         "A bearing cannot pass two lobes, so a third disc's cam is put on the shaft afterwards. "
         "What its disc asks of the motor goes through that joint; where it gives way the cam turns "
         "out of its phase, and the gearbox jams. No lasting strength of such a bond is known: what "
         "the duty asks of it is told beside the peak.",
         "Wittel and others 2017, Roloff/Matek Maschinenelemente, section 5.1 (bonded hubs); ISO "
-        "10123 (strength); DIN 7190-1 (what a press fit loses to roughness)",
+        "10123 (strength)",
         basis=f"{_EQUILIBRIUM}; temperature of the thermal network",
     ),
     CheckGuide(

@@ -6,12 +6,15 @@ import math
 
 from cqdd_design.catalog.adhesives import ROTOR_COMPOUND
 from cqdd_design.catalog.bearings import least_chamfer
+from cqdd_design.catalog.fits import fit_limits
 from cqdd_design.solids.features import zones
 from cqdd_design.solids.features.holes import Centre, Facing
 from cqdd_design.solids.features.kinds import Feature, Joint, Seat
 from cqdd_design.solids.features.making import BEARING_FACE, relief, seat, shoulder
 from cqdd_design.solids.layout import PackLayout, ShaftLayout
 from cqdd_design.solids.motor_layout import InrunnerLayout, MotorEnd
+
+_MM, _UM = 1e3, 1e6
 
 
 def crank_offset(pack: PackLayout, disc: int) -> Centre:
@@ -55,8 +58,9 @@ def _pressed_on(pack: PackLayout, position: float) -> str:
     angle = 2.0 * 360.0 / pack.disc_count
     off = math.degrees(0.5 * position / pack.eccentricity)
     return (
-        f"press fit with {ROTOR_COMPOUND.name}, lobe 3 at {angle:g}\u00b0 from lobe 1, "
-        f"\u00b1{off:.2g}\u00b0"
+        f"light press fit, bonded over its whole bore with {ROTOR_COMPOUND.name}; turned, before "
+        f"that sets, till lobe 3 is at {angle:g}\u00b0 from lobe 1, \u00b1{off:.2g}\u00b0, and its "
+        f"axis within dia {_MM * position:.3g} of its place to A-B"
     )
 
 
@@ -94,6 +98,7 @@ def lobe_features(
     *,
     collar: Facing | None,
     refers: str = "A-B",
+    zone: str = zones.LOBE,
 ) -> list[Feature]:
     """A lobe, and the face of the collar beside it.
 
@@ -111,7 +116,7 @@ def lobe_features(
     bearing = pack.cam.bearing
     lobe = seat(
         f"lobe {disc + 1}", bearing.bore_diameter, pack.cam_bottom(disc), pack.cam_top(disc),
-        zones.LOBE, ground=True, refers=refers, centre=crank_offset(pack, disc), position=position,
+        zone, ground=True, refers=refers, centre=crank_offset(pack, disc), position=position,
     )  # fmt: skip
     if collar is None:
         return [lobe]
@@ -148,10 +153,25 @@ def loose_cam_features(
     """Of the cam of the third disc; its datum is its bore."""
     bore = seat(
         "bore", 2.0 * shaft.shoulder_radius, pack.cam_top(1), pack.cam_top(2), zones.CAM_BORE,
-        inside=True, datum="A",
+        inside=True, ground=True, datum="A",
     )  # fmt: skip
-    lobe = lobe_features(pack, shaft, 2, position, collar="up", refers="A")
-    return (bore, *lobe)
+    lobe = lobe_features(pack, shaft, 2, position, collar="up", refers="A", zone=zones.LOOSE_LOBE)
+    how = _ground_before(pack, shaft)
+    on = Joint("eccentric shaft", "pressed", bore.name, "eccentric shaft", how)
+    return (bore, *lobe, on)
+
+
+def _ground_before(pack: PackLayout, shaft: ShaftLayout) -> str:
+    """When the lobe is ground, and what the press fit does to it: it grows by delta a/b."""
+    size, bore = 2.0 * shaft.shoulder_radius, pack.cam.bearing.bore_diameter
+    most = fit_limits(zones.PRESSED_CAM, size).upper - fit_limits(zones.CAM_BORE, size).lower
+    grown = _UM * most * size / bore
+    return (
+        f"bonded over the whole bore with {ROTOR_COMPOUND.name}; the lobe is ground before, for "
+        f"disc 2 and its cam bearing are on the shaft by then and nothing can be ground after. At "
+        f"most {_UM * most:.0f} µm of interference make it grow by {grown:.1f} µm, hence "
+        f"its {zones.LOOSE_LOBE}"
+    )
 
 
 def sleeve_features(inner: float, outer: float, length: float) -> tuple[Feature, ...]:
