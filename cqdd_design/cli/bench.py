@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
+from cqdd_design.cli import completion
 from cqdd_design.cli.options import (
     BenchSeed,
     BenchSupply,
@@ -41,7 +42,14 @@ _OTHERWISE = (
 def bench(
     out: Output,
     design: DesignFile,
-    only: Annotated[str | None, option("NAMES", "Measurements, separated by commas.")] = None,
+    only: Annotated[
+        str | None,
+        option(
+            "NAMES",
+            "Measurements, separated by commas.",
+            autocompletion=completion.measurements,
+        ),
+    ] = None,
     voltage: BenchSupply = None,
     rig_stiffness: RigStiffness = None,
     seed: BenchSeed = None,
@@ -50,7 +58,11 @@ def bench(
     motor_file: OwnMotor = None,
     beside: Annotated[
         str | None,
-        option("NAMES", "Geared actuators of the catalogue to compare with, by semicolons."),
+        option(
+            "NAMES",
+            "Geared actuators of the catalogue to compare with, by semicolons.",
+            autocompletion=completion.geared_actuators,
+        ),
     ] = None,
     folder: Annotated[
         Path | None, option("DIR", "Write every trace there, as npz.", "--out")

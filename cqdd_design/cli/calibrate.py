@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
+from cqdd_design.cli import completion
 from cqdd_design.cli.options import (
     BenchSeed,
     BenchSupply,
@@ -38,7 +39,12 @@ def calibrate(
         ),
     ] = None,
     to: Annotated[
-        str | None, option("ROWS", "Measured rows to fit to, by commas; the others are predicted.")
+        str | None,
+        option(
+            "ROWS",
+            "Measured rows to fit to, by commas; the others are predicted.",
+            autocompletion=completion.measurements,
+        ),
     ] = None,
     unknowns: Annotated[
         str | None,
@@ -47,6 +53,7 @@ def calibrate(
             "What to fit: thermal_resistance, motor_cogging, motor_coulomb, motor_viscous, "
             "friction_load, current_loop, rig_stiffness, tolerance_scale; default what the rows "
             "decide.",
+            autocompletion=completion.unknowns,
         ),
     ] = None,
     voltage: BenchSupply = None,

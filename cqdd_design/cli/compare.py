@@ -6,6 +6,7 @@ import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
+from cqdd_design.cli import completion
 from cqdd_design.cli.fitting import WIDTH
 from cqdd_design.cli.options import (
     DesignFile,
@@ -32,7 +33,12 @@ def compare(
     module: Annotated[str, quantity_option("Module of both meshes.")] = "1 mm",
     face_width: Annotated[str, quantity_option("Face width of both meshes.")] = "12 mm",
     material: Annotated[
-        str | None, option("NAME", "Material of the gears; default that of the discs.")
+        str | None,
+        option(
+            "NAME",
+            "Material of the gears; default that of the discs.",
+            autocompletion=completion.materials,
+        ),
     ] = None,
     planets: Annotated[
         int | None, option("N", "Planets looked at in detail; default the most that fit.")
@@ -46,7 +52,12 @@ def compare(
     accuracy_class: Annotated[int | None, option("N", "Of ISO 1328-1; default 5, ground.")] = None,
     application_factor: Annotated[float | None, option("X", "K_A; default 1.")] = None,
     mesh_load_table: Annotated[
-        str | None, option("NAME", "K_gamma by number of planets; default iso.")
+        str | None,
+        option(
+            "NAME",
+            "K_gamma by number of planets; default iso.",
+            autocompletion=completion.mesh_load_tables,
+        ),
     ] = None,
     lubricant_viscosity: Annotated[
         str | None, quantity_option('At 40 C; default "150 mm^2/s".')

@@ -1,4 +1,4 @@
-"""What the shell offers after TAB: design files, names of motors, materials and checks, and kinds.
+"""What the shell offers after TAB: design files, folders and files, names, and choices.
 
 A shell waits for it, so names are read from the package's files, without numpy or the catalogue's
 readers. A test holds them against what those give.
@@ -13,6 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from cqdd_design.cli.check_names import CHECKS
+from cqdd_design.cli.known_names import ESTIMATED, LOADS_BY_PLANETS, MEASUREMENTS, SETS, UNKNOWNS
+from cqdd_design.exporting.estimators.kinds import KINDS as ESTIMATORS
 from cqdd_design.exporting.kinds import KINDS
 
 _ASKED_BY = "_CQDD_DESIGN_COMPLETE"
@@ -71,23 +73,49 @@ def _starting(names: Callable[[], Iterable[str]]) -> Callable[[str], list[str]]:
     return complete
 
 
-def _rows(catalogue: str) -> list[str]:
+def _rows(catalogue: str, only: str = "") -> list[str]:
+    """First cells of a catalogue's rows, of those alone that have a cell `only`."""
     path = _PACKAGE / "catalog" / "data" / _CATALOGUES[catalogue]
     with path.open(newline="", encoding="utf-8") as file:
         kept = (line for line in file if not line.startswith("#"))
-        return [row[0] for row in list(csv.reader(kept))[1:] if row]
+        return [row[0] for row in list(csv.reader(kept))[1:] if row and (not only or only in row)]
 
 
-def export_kinds(incomplete: str) -> list[str]:
-    """Kinds of export that begin as the last of a list separated by commas does."""
-    before, comma, begun = incomplete.rpartition(",")
-    return [f"{before}{comma}{name}" for name in KINDS if name.startswith(begun)]
+def _listed(names: Iterable[str], after: str = ",") -> Callable[[str], list[str]]:
+    """Names that begin as the last of a list does, and are not on it yet."""
+
+    def complete(incomplete: str) -> list[str]:
+        before, comma, begun = incomplete.rpartition(after)
+        had = [name.strip() for name in before.split(after)]
+        found = [name for name in names if name not in had]
+        return [_Offered(f"{before}{comma}{name}") for name in _starting(lambda: found)(begun)]
+
+    return complete
 
 
+def choices(metavar: str) -> Callable[[str], list[str]] | None:
+    """Completion of an option whose help names all it can be, as ``iso|sodick`` does."""
+    names = metavar.split("|")
+    return _starting(lambda: names) if len(names) > 1 else None
+
+
+export_kinds = _listed(KINDS)
+estimator_kinds = _listed(ESTIMATORS)
+measurements = _listed(MEASUREMENTS)
+unknowns = _listed(UNKNOWNS)
+test_sets = _listed(SETS)
+held_out = _starting(lambda: SETS)
+networks = _starting(lambda: ESTIMATED)
+mesh_load_tables = _starting(lambda: LOADS_BY_PLANETS)
 motors = _starting(lambda: _rows("motors"))
+sized_motors = _starting(lambda: ["any", *_rows("motors")])
+geared_actuators = _starting(lambda: _rows("motors", only="output"))
+materials = _starting(lambda: _rows("materials"))
 checks = _starting(lambda: CHECKS)
 catalogued = _starting(
     lambda: [
+        "list",
+        "show",
         *_CATALOGUES,
         "fits",
         "rubbing",

@@ -18,7 +18,11 @@ def export(
     out: Output,
     design: Annotated[
         list[Path],
-        typer.Argument(metavar="DESIGN...", help="Design files (TOML); several at once."),
+        typer.Argument(
+            metavar="DESIGN...",
+            help="Design files (TOML); several at once.",
+            autocompletion=completion.designs,
+        ),
     ],
     to: Annotated[
         str,

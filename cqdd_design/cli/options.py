@@ -17,7 +17,11 @@ if TYPE_CHECKING:
 
 
 def option(metavar: str, text: str, *names: str, **more: Any) -> Any:
-    """An option, called like its argument unless named: what stands for its value, and its help."""
+    """An option, called like its argument unless named: what stands for its value, and its help.
+
+    The shell offers the choices of a metavar such as ``iso|sodick``.
+    """
+    more.setdefault("autocompletion", completion.choices(metavar))
     return typer.Option(*names, metavar=metavar, help=text, **more)
 
 

@@ -6,8 +6,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
 from cqdd_design.cli.options import (
     Calibrated,
     DesignFile,
@@ -29,7 +27,7 @@ _MOST_SAMPLES = 10_000
 
 
 def _choice(known: Sequence[str], text: str) -> Any:
-    return typer.Option(metavar="|".join(known), help=text)
+    return option("|".join(known), text)
 
 
 def simulate(

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from cqdd_design.cli.completion import motors
+from cqdd_design.cli.completion import export_kinds, sized_motors
 from cqdd_design.cli.fitting import WIDTH
 from cqdd_design.cli.options import (
     Duty,
@@ -76,7 +76,7 @@ def size(
         option(
             "NAME",
             "Default CubeMars RO100 KV55; any: the first that fits of all.",
-            autocompletion=motors,
+            autocompletion=sized_motors,
         ),
     ] = None,
     motor_file: OwnMotor = None,
@@ -89,7 +89,12 @@ def size(
         bool, typer.Option("--report", help="Write reports/sized-N.html too.")
     ] = False,
     export: Annotated[
-        str | None, option("LIST", "Write exports/sized-N/ too: dxf, step, ... as `export`.")
+        str | None,
+        option(
+            "LIST",
+            "Write exports/sized-N/ too: dxf, step, ... as `export`.",
+            autocompletion=export_kinds,
+        ),
     ] = None,
     ambient: Annotated[
         str | None, quantity_option('Of the air round the actuator; default "25 degC".')

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
+from cqdd_design.cli import completion
 from cqdd_design.cli.options import Calibrated, Force, NamedMotor, OwnMotor, option, parse_names
 from cqdd_design.cli.session import Output, read_design
 from cqdd_design.cli.tables import number, table
@@ -26,6 +27,7 @@ def evaluate(
             "NAMES",
             "Test sets: trajectory,mass,wall,gearbox; default that of the first network.",
             "--set",
+            autocompletion=completion.test_sets,
         ),
     ] = None,
     design: Annotated[

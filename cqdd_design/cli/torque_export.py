@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from cqdd_design.cli import completion
 from cqdd_design.cli.options import Force, option
 from cqdd_design.cli.session import Output
 from cqdd_design.environment import output_folder
@@ -19,7 +20,14 @@ def export_network(
     model: Annotated[
         Path, typer.Argument(metavar="MODEL", help="Network (.npz) that was trained.")
     ],
-    to: Annotated[str, option("LIST", f"Of {', '.join(KINDS)}; with commas.")] = "onnx,c",
+    to: Annotated[
+        str,
+        option(
+            "LIST",
+            f"Of {', '.join(KINDS)}; with commas.",
+            autocompletion=completion.estimator_kinds,
+        ),
+    ] = "onnx,c",
     folder: Annotated[Path | None, option("DIR", "Default exports/NAME.", "--out")] = None,
     force: Force = False,
 ) -> int:

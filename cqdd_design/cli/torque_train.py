@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, cast
 
 import typer
 
+from cqdd_design.cli import completion
 from cqdd_design.cli.options import (
     Force,
     NamedMotor,
@@ -40,6 +41,7 @@ def train(
             "NAME",
             "pva-gru, pv-gru, mlp, mlp-baseline, mlp-acceleration, physics-gru, phase-gru or "
             "physics-phase-gru.",
+            autocompletion=completion.networks,
         ),
     ] = "pva-gru",
     seed: Annotated[int, count_option("Of weights and order.", 0)] = 0,
@@ -48,13 +50,19 @@ def train(
     ] = None,
     epochs: Annotated[int, count_option("At most.")] = 20,
     protocol: Annotated[
-        str, option("NAME", "What is held out: trajectory, mass, wall or gearbox.", "--split")
+        str,
+        option(
+            "NAME",
+            "What is held out: trajectory, mass, wall or gearbox.",
+            "--split",
+            autocompletion=completion.held_out,
+        ),
     ] = "trajectory",
     split_seed: Annotated[int, count_option("Of the split.", 0)] = 0,
     mode: Annotated[
         str, option("window|streaming", "How it is trained and will be run.")
     ] = "window",
-    device: Annotated[str, typer.Option(metavar="auto|cpu|cuda")] = "auto",
+    device: Annotated[str, option("auto|cpu|cuda", "Where it is trained.")] = "auto",
     resume: Annotated[
         bool, typer.Option("--resume", help="Go on from the checkpoint beside --out.")
     ] = False,

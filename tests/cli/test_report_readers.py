@@ -36,7 +36,40 @@ UNITS = {
     "\u22126.0 to 75.2 MPa": "\u22120.8702 to 10.91 ksi",
     "1.2 N\u00b7m/rad, 5 mm\u207b\u00b9": "10.62 lbf\u00b7in/rad, 5 mm\u207b\u00b9",
     "40 \u00b0C": "104 \u00b0F",
+    "4.5 mN\u00b7m": "0.6373 ozf\u00b7in",
+    "12.88 g\u00b7mm": "0.01789 oz\u00b7in",
+    "5.29 kg\u00b7cm\u00b2": "1.808 lb\u00b7in\u00b2",
+    "5 \u00b10.3 N\u00b7m": "44.25 \u00b12.655 lbf\u00b7in",
+    "0.88 K/W, 1.7 nm/N": "0.88 K/W, 1.7 nm/N",
 }
+
+#: Tables whose unit stands in a head, in a row or in a column of its own: in SI, and converted.
+TABLES = (
+    (
+        (("Part", "Room, mm", "Heat, \u00b0C", "input, 10\u207b\u2076 kg\u00b7m\u00b2", "g each"),
+         ("disc", "0.33 to 1.09", "40", "1.74", "110.9"),
+         ("ring", "+0.05 / \u22120.05", "\u2013", "0", "28.35")),
+        (("Part", "Room, in", "Heat, \u00b0F", "input, lb\u00b7in\u00b2", "oz each"),
+         ("disc", "0.01299 to 0.04291", "104", "0.005946", "3.912"),
+         ("ring", "+0.001969 / \u22120.001969", "\u2013", "0", "1")),
+    ),
+    (
+        (("Quantity", "Mean", "Limit"), ("ring force, N", "1926", "\u2264 2000"),
+         ("backlash, arcmin", "2.418", ""), ("ripple, N\u00b7m", "1.5", "")),
+        (("Quantity", "Mean", "Limit"), ("ring force, lbf", "433", "\u2264 449.6"),
+         ("backlash, arcmin", "2.418", ""), ("ripple, lbf\u00b7in", "13.28", "")),
+    ),
+    (
+        (("Measurement", "Here", "Spread", "Unit", "Off by"),
+         ("torque", "21.87", "\u00b10.25", "N\u00b7m", "\u221242\u202f%"),
+         ("temperature", "40", "\u00b110", "\u00b0C", "\u2013"),
+         ("bandwidth", "60", "<0.1\u202f%", "Hz", "\u2013")),
+        (("Measurement", "Here", "Spread", "Unit", "Off by"),
+         ("torque", "193.6", "\u00b12.213", "lbf\u00b7in", "\u221242\u202f%"),
+         ("temperature", "104", "\u00b118", "\u00b0F", "\u2013"),
+         ("bandwidth", "60", "<0.1\u202f%", "Hz", "\u2013")),
+    ),
+)  # fmt: skip
 
 #: Units there and back, the contents, and what the keyboard reaches.
 _USED = """
@@ -49,9 +82,11 @@ _USED = """
     return Array.prototype.map.call(page.querySelectorAll("#" + id + " tr"), function (row) {
       return Array.prototype.map.call(row.children, function (c) { return c.textContent; }); });
   }
-  var si = shown(), seats = columns("bom");
+  page.querySelector(".page").insertAdjacentHTML("beforeend", EXAMPLES);
+  function examples() { return [0, 1, 2].map(function (k) { return columns("example-" + k); }); }
+  var si = shown(), seats = columns("bom"), named = examples();
   choose("units", "us");
-  var us = shown(), converted = columns("bom");
+  var us = shown(), converted = columns("bom"), renamed = examples();
   var drawn = page.querySelector("#front-view").textContent;
   choose("units", "si");
   var again = shown();
@@ -71,7 +106,8 @@ _USED = """
     return Number(h.tagName[1]); });
   var told = CASES.map(view.cqddUnits);
   return { told: told, same: si === again, si: si, us: us, drawn: drawn, seats: seats,
-    converted: converted, bar: bar, before: before, after: after, expanded: expanded,
+    converted: converted, named: named, renamed: renamed, back: examples(),
+    bar: bar, before: before, after: after, expanded: expanded,
     nav: [nav.top, nav.bottom, nav.height],
     current: (list.querySelector("[aria-current]") || {}).textContent, headings: headings,
     scrolled: Array.prototype.filter.call(page.querySelectorAll("figure, .scroll"),
@@ -87,8 +123,17 @@ def readers(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
     contact = analyse_contact(results.machine, angles=120)
     page = build_report(dataclasses.replace(results, contact=contact, bench=paper_bench()))
     cases = json.dumps([_thin(one) for one in UNITS])
-    used = _USED.replace("CASES", cases)
+    examples = "".join(_table(k, si) for k, (si, _) in enumerate(TABLES))
+    used = _USED.replace("CASES", cases).replace("EXAMPLES", json.dumps(examples))
     return read(page, tmp_path_factory.mktemp("readers"), axe=axe_source(), more=used)
+
+
+def _table(number: int, rows: tuple[tuple[str, ...], ...]) -> str:
+    head, *body = ("".join(f"<td>{cell}</td>" for cell in row) for row in rows)
+    lines = "".join(f"<tr>{row}</tr>" for row in body)
+    return (
+        f'<table id="example-{number}"><thead><tr>{head}</tr></thead><tbody>{lines}</tbody></table>'
+    )
 
 
 def _thin(text: str) -> str:
@@ -135,6 +180,9 @@ def test_units_go_to_inches_and_back(readers: dict[str, Any]) -> None:
     assert used["same"]
     for words, told in zip(UNITS.values(), used["told"], strict=True):
         assert told == _thin(words)
+    for k, (si, us) in enumerate(TABLES):
+        assert used["named"][k] == used["back"][k] == [list(row) for row in si]
+        assert used["renamed"][k] == [list(row) for row in us]
     assert "120\u202fN\u00b7m" in used["si"]
     assert "1062\u202flbf\u00b7in" in used["us"]
     assert "120\u202fN\u00b7m" not in used["us"]

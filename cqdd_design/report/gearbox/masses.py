@@ -114,7 +114,7 @@ def _beside_the_paper(design: Design, inertia: GearboxInertia) -> tuple[Row, ...
     def inertial(value: float, digits: int = 3) -> str:
         return significant(1e4 * value, digits)
 
-    fourth = "\u00d7 10\u207b\u2074 kg\u00b7m\u00b2"
+    fourth = "\u202f\u00d7\u202f10\u207b\u2074\u202fkg\u00b7m\u00b2"
     return (
         (
             "mass",
@@ -129,17 +129,17 @@ def _beside_the_paper(design: Design, inertia: GearboxInertia) -> tuple[Row, ...
         ),
         (
             "inertia at the input",
-            f"{inertial(whole)} {fourth}",
-            f"{inertial(paper['actuator_inertia'])} {fourth}",
-            f"{1e4 * (whole - paper['actuator_inertia']):+.3g}. The catalogue's rotor has "
-            f"{inertial(rotor)}, {rotor_scope(inertia.motor)}; the gearbox adds "
-            f"{inertial(inertia.gearbox_reflected, 2)}.",
+            f"{inertial(whole)}{fourth}",
+            f"{inertial(paper['actuator_inertia'])}{fourth}",
+            f"{1e4 * (whole - paper['actuator_inertia']):+.3g}{fourth}. The catalogue's rotor has "
+            f"{inertial(rotor)}{fourth}, {rotor_scope(inertia.motor)}; the gearbox adds "
+            f"{inertial(inertia.gearbox_reflected, 2)}{fourth}.",
         ),
         (
             f"torque density, at the paper's {paper['peak_torque']:g}\u202fN\u00b7m",
             f"{significant(paper['peak_torque'] / mass, 3)}{dense}",
             f"{significant(paper['torque_density'], 3)}{dense}",
-            f"follows from the mass; {significant(peak / mass, 3)} at this design's "
+            f"follows from the mass; {significant(peak / mass, 3)}{dense} at this design's "
             f"{significant(peak)}\u202fN\u00b7m.",
         ),
     )

@@ -11,14 +11,17 @@
     "N\u00b7m/arcmin": [8.8507457, "lbf\u00b7in/arcmin"], "N\u00b7m/rad": [8.8507457, "lbf\u00b7in/rad"],
     "N\u00b7m/A": [8.8507457, "lbf\u00b7in/A"], "m/s": [1 / 0.3048, "ft/s"], "mm/s": [1 / 25.4, "in/s"],
     "kg\u00b7m\u00b2": [3417.1719, "lb\u00b7in\u00b2"], "N\u00b7m/kg": [4.0146, "lbf\u00b7in/lb"],
-    "N\u00b7m\u00b7s/rad": [8.8507457, "lbf\u00b7in\u00b7s/rad"], "N/\u00b5m": [5.7101471, "lbf/thou"]
+    "N\u00b7m\u00b7s/rad": [8.8507457, "lbf\u00b7in\u00b7s/rad"], "N/\u00b5m": [5.7101471, "lbf/thou"],
+    "mN\u00b7m": [0.14161193, "ozf\u00b7in"], "mN\u00b7m\u00b7s/rad": [0.14161193, "ozf\u00b7in\u00b7s/rad"],
+    "kg\u00b7cm\u00b2": [0.34171719, "lb\u00b7in\u00b2"], "g\u00b7mm": [0.0013887387, "oz\u00b7in"],
+    "g\u00b7mm\u00b2": [5.4674751e-5, "oz\u00b7in\u00b2"], "kg/dm3": [0.036127292, "lb/in\u00b3"]
   };
   var names = Object.keys(UNITS).sort(function (a, b) { return b.length - a.length; });
   var NUMBER = "[\u2212-]?\\d+(?:\u202f\\d{3})*(?:\\.\\d+)?(?:\u202f\u00d7\u202f10[\u207b\u2070\u00b9\u00b2\u00b3\u2074-\u2079]+)?";
   // Numbers before the last may share its unit: sides of a box, "3 of 4 MPa", "from 3 to 4 mm". In
   // "2 \u00d7 8 mm" and "2 of 4 mm" the first counts pieces.
   var PATTERN = new RegExp("(?<![\\w.])(\u2300 ?" + NUMBER + " [\u00d7x] |" + NUMBER + " \u00d7 " + NUMBER +
-    " \u00d7 |" + NUMBER + " (?:\u00d7|x|of|to) )?(" + NUMBER + ")[\u202f ](" +
+    " \u00d7 |" + NUMBER + " (?:\u00d7|x|of|to|\u00b1) ?)?(" + NUMBER + ")[\u202f ](" +
     names.join("|").replace(/\//g, "\\/") + ")(?![\\w\u00b7\u00b2\u00b3\u207b]|/[A-Za-z\u00b5])", "g");
   function counts(before, name) {
     var length = /^(mm|\u00b5m|m)$/.test(name);
@@ -59,24 +62,60 @@
     });
   }
 
-  // Columns whose head names the unit of bare numbers: "Offset, \u00b5m".
-  function columns(then) {
+  // Bare numbers whose unit stands elsewhere: limits, ranges, pairs and values with their spread.
+  var BARE = new RegExp("^(?:[\u2264\u2265<>] ?)?[+\u00b1]?" + NUMBER + "(?:(?: to | / | ?\u00b1)\\+?" + NUMBER +
+    ")*(?:, the design)?$");
+  function rescaled(text, unit) {
+    return text.replace(new RegExp("(\u00b1?)(" + NUMBER + ")", "g"), function (all, spread, number) {
+      return spread + converted(number, spread ? unit.slice(0, 2) : unit);
+    });
+  }
+  // The unit that words end with, after a comma or alone, or begin with: "Offset, \u00b5m", "g each".
+  var ALL = "(10[\u207b\u2070\u00b9\u00b2\u00b3\u2074-\u2079]+ )?(" + names.join("|") + ")";
+  var NAMED = [new RegExp("(?:^|, )" + ALL + "$"), new RegExp("^()(g)(?= (?:each|in all)$)")];
+  function named(words) {
+    for (var k = 0; k < NAMED.length; k += 1) {
+      var found = NAMED[k].exec(words);
+      if (found) {
+        var unit = UNITS[found[2]], power = found[1] ? value("1" + THIN + "\u00d7" + THIN + found[1].trim()) : 1;
+        return { words: (found[1] || "") + found[2], unit: [unit[0] * power].concat(unit.slice(1)) };
+      }
+    }
+    return null;
+  }
+  function plain(cell) { return cell.children.length ? null : cell.textContent.trim(); }
+  // Tells the cells of bare numbers, and the cell that names their unit.
+  function bare(cells, unit, then) {
+    cells.forEach(function (cell) {
+      if (cell && plain(cell) !== null && BARE.test(plain(cell))) { then(cell, unit, true); }
+    });
+  }
+  // Units named by the head of a column, by the first cell of a row, or in a column of their own.
+  function tables(then) {
     Array.prototype.forEach.call(document.querySelectorAll("table"), function (table) {
-      Array.prototype.forEach.call(table.querySelectorAll("thead tr > *"), function (head, at) {
-        var words = head.textContent.trim(), name = words.split(", ").pop();
-        if (head.children.length || !UNITS[name]) { return; }
-        then(head, name);
-        Array.prototype.forEach.call(table.querySelectorAll("tbody tr"), function (row) {
-          var cell = row.children[at];
-          if (cell && row.children.length === head.parentNode.children.length &&
-              new RegExp("^" + NUMBER + "$").test(cell.textContent.trim())) { then(cell, name); }
-        });
+      var heads = Array.prototype.slice.call(table.querySelectorAll("thead tr:last-child > *"));
+      var rows = Array.prototype.map.call(table.querySelectorAll("tbody tr"), function (row) {
+        return Array.prototype.slice.call(row.children);
+      }).filter(function (cells) { return !heads.length || cells.length === heads.length; });
+      var own = heads.map(function (head) { return plain(head) === null ? null : named(plain(head)); });
+      var column = heads.map(plain).indexOf("Unit");
+      own.forEach(function (unit, at) {
+        if (!unit) { return; }
+        then(heads[at], unit, false);
+        bare(rows.map(function (cells) { return cells[at]; }), unit, then);
+      });
+      rows.forEach(function (cells) {
+        var teller = cells[Math.max(column, 0)], unit = plain(teller) === null ? null : named(plain(teller));
+        if (!unit || own.some(Boolean)) { return; }
+        then(teller, unit, false);
+        bare(cells.filter(function (cell) { return cell !== teller; }), unit, then);
       });
     });
   }
 
-  function renamed(text, name) {
-    return text.slice(0, text.lastIndexOf(name)) + UNITS[name][1];
+  function renamed(text, unit) {
+    var at = text.lastIndexOf(unit.words);
+    return at < 0 ? text : text.slice(0, at) + unit.unit[1] + text.slice(at + unit.words.length);
   }
   var changed = [], labels = [];
   function set(node, text) {
@@ -86,13 +125,12 @@
     }
   }
   function toInches() {
-    columns(function (cell, name) {
-      var node = document.createTreeWalker(cell, NodeFilter.SHOW_TEXT).nextNode();
-      var text = node.data, bare = cell.closest("thead") === null;
-      set(node, bare ? converted(text.trim(), UNITS[name]) : renamed(text, name));
-      if (bare && cell.hasAttribute("data-label")) {
+    tables(function (cell, unit, number) {
+      var node = cell.firstChild;
+      set(node, number ? rescaled(node.data.trim(), unit.unit) : renamed(node.data, unit));
+      if (cell.hasAttribute("data-label")) {
         labels.push([cell, cell.getAttribute("data-label")]);
-        cell.setAttribute("data-label", renamed(cell.getAttribute("data-label"), name));
+        cell.setAttribute("data-label", renamed(cell.getAttribute("data-label"), unit));
       }
     });
     var walker = document.createTreeWalker(document.querySelector(".page"), NodeFilter.SHOW_TEXT);
