@@ -15,6 +15,7 @@ from cqdd_design.catalog import bearings, find_material, find_motor
 from cqdd_design.design import load_design
 from cqdd_design.errors import UsageError
 from cqdd_design.exporting.bill.consumables import bonds
+from cqdd_design.exporting.bill.fitting import fitting_notes
 from cqdd_design.exporting.bill.known import catalogue_designations
 from cqdd_design.exporting.bill.prices import read_prices
 from cqdd_design.exporting.bill.substitutes import (
@@ -125,6 +126,16 @@ def test_both_seats_of_the_shafts_bearings_are_told(rows):
         "on the eccentric shaft 10 k6, in the housing 22 H7 and the carrier plate 22 H7"
         in (row["fitting"])
     )
+
+
+def test_the_third_cam_bearing_has_a_seat_of_its_own(paper, rows):
+    """On the loose cam, whose lobe is ground smaller for it grows when it is pressed on."""
+    three = resolve(paper.replacing({"reducer.disc_count": 3}))
+    said = fitting_notes(three)["cam bearing"]
+    assert "on the eccentric shaft 15 h6" in said
+    assert said.endswith("; the third on the eccentric cam 15 g5")
+    (row,) = (row for row in rows if row["part"] == "cam bearing")
+    assert "third" not in row["fitting"]
 
 
 def test_a_screw_of_no_length_that_is_sold_says_so(paper, rows):

@@ -85,6 +85,18 @@ def near(one, two):
     return abs(float(one) - two) < NEAR
 
 
+def free(value):
+    """A length (m) without limits as it stands on a sheet, to 0.01 mm."""
+    return round(MM * value, 2) / MM
+
+
+def has_length(texts, value):
+    """A height (m) with limits, or rounded without."""
+    return has_text(texts, rf"^(-?[\d.]+) \u00b1{NUMBER[1:-1]}$", value) or has_text(
+        texts, r"^(-?[\d.]+)$", free(value)
+    )
+
+
 def has_fit(texts, feature):
     """Diameter, zone and both limits as one text."""
     try:
@@ -138,20 +150,22 @@ def check_hole(texts, hole):
             assert has_text(texts, rf"{lead}{name}, \u00d8{NUMBER} through", hole.drill)
         else:
             deep = rf"{lead}{name} \u00d7 {NUMBER}/\u00d8{NUMBER} \u00d7 {NUMBER}"
-            assert has_text(texts, deep, hole.thread_depth, hole.drill, hole.drill_depth)
+            assert has_text(
+                texts, deep, free(hole.thread_depth), hole.drill, free(hole.drill_depth)
+            )
         if hole.countersink:
             assert has_text(texts, rf"countersunk \u00d8{NUMBER} \u00d7 90", hole.countersink)
     elif isinstance(hole, ClearanceHole):
         assert has_text(texts, rf"{lead}\u00d8{NUMBER} for M", hole.diameter)
     elif isinstance(hole, Counterbore):
         deep = rf"{lead}counterbore \u00d8{NUMBER} \u00d7 {NUMBER}"
-        assert has_text(texts, deep, hole.diameter, hole.depth)
+        assert has_text(texts, deep, hole.diameter, free(hole.depth))
     elif isinstance(hole, FittedHole):
         assert has_fit(texts, hole)
         assert has_roughness(texts, hole.roughness)
     else:
         assert isinstance(hole, PlainHole)
-        assert has_text(texts, rf"{lead}\u00d8{NUMBER}", hole.diameter)
+        assert has_text(texts, rf"{lead}\u00d8{NUMBER}", free(hole.diameter))
     if getattr(hole, "position", 0.0):
         assert has_frame(texts, hole.position, hole.refers, "\u00d8")
     assert has_text(texts, rf"^\u00d8{NUMBER}$", 2.0 * hole.circle.radius)
@@ -180,14 +194,14 @@ def check_part(part, texts):
             elif feature.refers:
                 assert has_frame(texts, feature.run_out, feature.refers), feature
             for end in (feature.bottom, feature.top):
-                assert has_text(texts, r"^(-?[\d.]+)(?: .*)?$", end - origin), feature
+                assert has_length(texts, end - origin), feature
         elif isinstance(feature, Shoulder):
             assert has_roughness(texts, feature.roughness)
             if feature.along:
                 pattern = rf"^(-?[\d.]+) \u00b1{NUMBER}$"
                 assert has_text(texts, pattern, feature.height - origin, feature.along), feature
             else:
-                assert has_text(texts, r"^(-?[\d.]+)$", feature.height - origin), feature
+                assert has_text(texts, r"^(-?[\d.]+)$", free(feature.height - origin)), feature
             if feature.refers:
                 assert has_frame(texts, feature.run_out, feature.refers), feature
         elif isinstance(feature, Chamfer):
@@ -305,12 +319,12 @@ def test_a_balance_weight_can_be_made_from_its_sheet(printed):
     texts = texts_of(svg_text(canvas, ""))
     said = next(text for text in texts if "ends radial" in text)
     radius, angle = map(float, re.findall(NUMBER, said))
-    assert abs(radius - inner) < NEAR
+    assert radius == pytest.approx(round(inner, 2))
     (outside,) = (text for text in texts if re.fullmatch(f"\u00d8{NUMBER}", text))
     outer = 0.5 * float(outside[1:])
     thick = MM * (weight.shape.top - weight.shape.bottom)
     area = math.radians(angle) * (outer**2 - radius**2) / 2.0
-    assert area * thick == pytest.approx(1e9 * weight.shape.volume, rel=1e-5)
+    assert area * thick == pytest.approx(1e9 * weight.shape.volume, rel=2e-3)
     assert PartFacts(weight, printed.given).number == "printed-13-balance-weight-output-end"
 
 
@@ -337,6 +351,24 @@ def test_the_loose_cam_has_a_direction(machine):
     (said,) = (note for note in notes_of(three) if "Eccentric cam pressed" in note)
     assert "lobe 3 is at 240\u00b0 from lobe 1, \u00b10.21\u00b0" in said
     assert "axis within dia 0.012 of its place to A-B" in said
+
+
+def test_no_general_size_asks_for_tenths_of_a_micrometre(machine):
+    """A ring of 76 mm makes proportions uneven, such as 118.9889 mm, turned to 0.3 mm."""
+    other = resolve(machine.given.replacing({"reducer.ring.outer_diameter": "76 mm"}))
+    for part in turned_parts(other):
+        texts = texts_of(svg_text(drawn(part, other), ""))
+        assert "Sizes without limits of their own are rounded to 0.01 mm." in " ".join(texts)
+        bare = [text for text in texts if re.fullmatch(rf"\u00d8?-?{NUMBER}", text)]
+        table = {f"{MM * at:.4f}" for group in PartFacts(part, other.given).holes
+                 for spot in group[0].circle.centres for at in spot}  # fmt: skip
+        boxed = {MM * 2.0 * group[0].circle.radius for group in PartFacts(part, other.given).holes}
+        boxed |= {MM * abs(complex(*one.centre)) for one in part.features if isinstance(one, Seat)}
+        for text in bare:
+            value = float(text.lstrip("\u00d8"))
+            if text in table or any(near(value, one) for one in boxed) or value < 0.1:
+                continue
+            assert value == pytest.approx(round(value, 2), abs=1e-9), (part.name, text)
 
 
 def test_the_sheet_of_a_loose_cam_says_when_it_is_ground(machine):
@@ -401,7 +433,7 @@ def test_the_pocket_of_a_rotor_hub_has_its_sizes(machine):
         assert any(text.startswith(f"\u00d8{size:.4g}") for text in texts), size
     for layer in layers:
         for height in (layer.bottom, layer.top):
-            assert any(near(text, MM * (height - hub.length_origin)) for text in numbers(texts))
+            assert any(near(text, MM * free(height - hub.length_origin)) for text in numbers(texts))
 
 
 def test_no_ring_pin_is_longer_than_the_thinnest_ring(machine):

@@ -74,7 +74,8 @@ def _bearings(machine: Machine, parts: dict[str, Part]) -> dict[str, str]:
             layout.pack.cam.bearing.outer_diameter,
             parts.values(),
             ("eccentric shaft", "disc"),
-        ),
+        )
+        + _on_loose_cam(machine, parts),
         "shaft bearing": _seated(
             layout.shaft.support.bearing.bore_diameter,
             layout.shaft.support.bearing.outer_diameter,
@@ -89,6 +90,15 @@ def _bearings(machine: Machine, parts: dict[str, Part]) -> dict[str, str]:
         )
         + "; locked with the bearing nut",
     }
+
+
+def _on_loose_cam(machine: Machine, parts: dict[str, Part]) -> str:
+    """The seat of the one cam bearing that is not on the shaft itself."""
+    loose, bore = parts.get("eccentric cam"), machine.layout.pack.cam.bearing.bore_diameter
+    if loose is None:
+        return ""
+    lobe = next(fit for fit in loose.fits if abs(fit.diameter - bore) < _SAME)
+    return f"; the third on the eccentric cam {_MM * bore:g} {lobe.zone}"
 
 
 def _seated(bore: float, outer: float, parts: Iterable[Part], names: tuple[str, ...]) -> str:

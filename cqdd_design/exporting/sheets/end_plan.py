@@ -19,7 +19,7 @@ from cqdd_design.exporting.sheets.blocks import (
 from cqdd_design.exporting.sheets.drawing import AXIS, HIDDEN, OUTLINE, SMALL, SheetDrawing
 from cqdd_design.exporting.sheets.lettering import text_width
 from cqdd_design.exporting.sheets.profile import sector, slots
-from cqdd_design.exporting.sheets.wording import DIA, circle_row, degrees, hole_rows, mm
+from cqdd_design.exporting.sheets.wording import DIA, circle_row, degrees, free_mm, hole_rows, mm
 from cqdd_design.geometry.contours import ArcContour, as_complex
 from cqdd_design.solids.end_view import Arc, visible_edges
 from cqdd_design.solids.features.holes import (
@@ -185,7 +185,7 @@ class EndPlan:
             spot = max(places, key=lambda c: round((self.at(c) * toward.conjugate()).real, 6))
             out = self.at(spot) / abs(self.at(spot))
             words = (
-                Words(f"{len(places)} \u00d7 R{mm(radius)} on"),
+                Words(f"{len(places)} \u00d7 R{free_mm(radius)} on"),
                 Boxed(f"{DIA}{mm(2.0 * distance)}"),
                 Words("from"),
                 Boxed(degrees(cmath.phase(first))),
@@ -197,7 +197,8 @@ class EndPlan:
         found = slots(self.shape.facts.part.shape)
         if found is None:
             return []
-        words = f"{found.count} \u00d7 slot {mm(found.width)} wide, {mm(found.depth)} deep"
+        width, depth = free_mm(found.width), free_mm(found.depth)
+        words = f"{found.count} \u00d7 slot {width} wide, {depth} deep"
         rows = ((Words(words), Words("from"), Boxed(degrees(cmath.phase(found.floor)))),)
         return [Block(self.at(found.floor), rows)]
 
@@ -206,7 +207,7 @@ class EndPlan:
         found = sector(self.shape.facts.part.shape)
         if found is None:
             return []
-        words = Words(f"R{mm(found.inner)} inside, ends radial, {degrees(found.angle)} apart")
+        words = Words(f"R{free_mm(found.inner)} inside, ends radial, {degrees(found.angle)} apart")
         return [Block(self.at(found.spot), ((words,),))]
 
     @cached_property

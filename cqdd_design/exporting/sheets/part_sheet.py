@@ -168,6 +168,7 @@ def notes(facts: PartFacts) -> list[str]:
         said.append("X and Y of holes are theoretically exact; X points up in the view.")
     said.append("Dimensions in boxes are theoretically exact (ISO 1101).")
     said.append("Lengths run from the face marked with a circle.")
+    said.append("Sizes without limits of their own are rounded to 0.01 mm.")
     return said
 
 

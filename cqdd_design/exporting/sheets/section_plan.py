@@ -24,9 +24,9 @@ from cqdd_design.exporting.sheets.sizes import Diameter, Lengths, Sizes, columns
 from cqdd_design.exporting.sheets.wording import (
     DIA,
     chamfer_text,
+    free_mm,
     groove_text,
     grouped,
-    mm,
     seat_rows,
     seat_text,
     shoulder_rows,
@@ -231,7 +231,7 @@ class SectionPlan:
                 add(0.5 * feature.thread, 0j, span, thread_text(feature), datum=feature.datum)
         for body in self.shape.bodies:
             if not spoken_for(body, features):
-                words = f"{DIA}{mm(2.0 * body.radius)}"
+                words = f"{DIA}{free_mm(2.0 * body.radius)}"
                 add(body.radius, body.centre, (body.bottom, body.top), words)
         return found
 

@@ -20,6 +20,7 @@ from dataclasses import dataclass
 from cqdd_design.exporting.sheets.blocks import Block, Box, Placed, Row, spread, stair
 from cqdd_design.exporting.sheets.drawing import CELL, SMALL, STEM, TEXT, SheetDrawing
 from cqdd_design.exporting.sheets.lettering import short_number, text_width
+from cqdd_design.exporting.sheets.wording import FREE_DECIMALS
 
 _FIRST, _PITCH = 11.0, 8.0
 """From the part to the first column of diameters, and from column to column, mm."""
@@ -235,8 +236,9 @@ class Lengths:
 
     @staticmethod
     def _words(value: float, either: float) -> str:
-        said = short_number(value, 4)
-        return f"{said} \u00b1{short_number(either, 4)}" if either else said
+        if not either:
+            return short_number(value, FREE_DECIMALS)
+        return f"{short_number(value, 4)} \u00b1{short_number(either, 4)}"
 
     def draw(self, sheet: SheetDrawing, shift: complex, bottoms: Sequence[float]) -> None:
         """Draw extension lines from the part, the line with its origin, and the values."""

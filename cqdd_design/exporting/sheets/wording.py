@@ -34,6 +34,8 @@ if TYPE_CHECKING:
 
 _MM, _UM = 1e3, 1e6
 DIA, BY = "\u00d8", "\u00d7"
+FREE_DECIMALS = 2
+"""Of millimetres, of sizes under general tolerances: what is left out is 5 um at most."""
 
 
 def mm(value: float) -> str:
@@ -45,6 +47,17 @@ def mm(value: float) -> str:
     ('27.5', '4')
     """
     return short_number(_MM * value, 4)
+
+
+def free_mm(value: float) -> str:
+    """A length in mm that has no limits of its own, to a tenth of the closest general ones (0.1).
+
+    Examples
+    --------
+    >>> free_mm(118.98889e-3), free_mm(0.1e-3)
+    ('118.99', '0.1')
+    """
+    return short_number(_MM * value, FREE_DECIMALS)
 
 
 def degrees(angle: float) -> str:
@@ -155,7 +168,8 @@ def hole_rows(hole: Hole) -> tuple[Row, ...]:
         if hole.through:
             said = f"{thread}, {drill} through"
         else:
-            said = f"{thread} {BY} {mm(hole.thread_depth)}/{drill} {BY} {mm(hole.drill_depth)}"
+            depth, drilled = free_mm(hole.thread_depth), free_mm(hole.drill_depth)
+            said = f"{thread} {BY} {depth}/{drill} {BY} {drilled}"
         rows.append((Words(said),))
         if hole.countersink:
             rows.append((Words(f"countersunk {DIA}{mm(hole.countersink)} {BY} 90\u00b0"),))
@@ -163,15 +177,16 @@ def hole_rows(hole: Hole) -> tuple[Row, ...]:
         said = f"{lead}{DIA}{mm(hole.diameter)} for M{mm(hole.thread)}, ISO 273 {hole.series}"
         rows.append((Words(said),))
     elif isinstance(hole, Counterbore):
-        rows.append((Words(f"{lead}counterbore {DIA}{mm(hole.diameter)} {BY} {mm(hole.depth)}"),))
+        size = f"{DIA}{mm(hole.diameter)} {BY} {free_mm(hole.depth)}"
+        rows.append((Words(f"{lead}counterbore {size}"),))
     elif isinstance(hole, FittedHole):
         size = fit_text(hole.diameter, hole.zone, limits_of(hole))
-        deep = "through" if hole.through else f"{BY} {mm(hole.top - hole.bottom)} deep"
+        deep = "through" if hole.through else f"{BY} {free_mm(hole.top - hole.bottom)} deep"
         rows.append((Words(f"{lead}{size} {deep}"),))
         if hole.seam:
             rows.append((Words("half grooves; its mate has the others"),))
     else:
-        rows.append((Words(f"{lead}{DIA}{mm(hole.diameter)}"),))
+        rows.append((Words(f"{lead}{DIA}{free_mm(hole.diameter)}"),))
     frame: list[Cell] = []
     if not isinstance(hole, PlainHole | Counterbore) and hole.position:
         frame.append(Frame("position", f"{DIA}{mm(hole.position)}", datum_cells(hole.refers)))

@@ -45,8 +45,8 @@ ROWS = (
         f"sqrt(s^2 + s p + p^2) <= S_y/{limits.PIN_SAFETY_AT_PEAK:g}: s round the bore and p "
         "across it of an eccentric ring pressed on a solid core, p with 4 F/(pi d l) of its "
         "disc's force",
-        "The wall between bore and lobe is a few tenths of a millimetre where it is thinnest, and "
-        "has to stretch more than the rest. A ring that yields or bursts there lets the cam turn. "
+        "The wall between bore and lobe is about a millimetre where it is thinnest, and has to "
+        "stretch more than the rest. A ring that yields or cracks there no longer bears its lobe. "
         "Cold or hot it is the same: cam and shaft are of one steel. Left out: bending of the "
         "shaft, which SHAFT-FATIGUE judges with the notch of a hub that is pressed on.",
         "Muskhelishvili 1953, Some Basic Problems of the Mathematical Theory of Elasticity, "

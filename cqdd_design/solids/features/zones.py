@@ -36,8 +36,8 @@ SEAL_INSIDE, SEAL_OUTSIDE = "h9", "H9"
 """Of what turns in a gap seal, and of the bore about it."""
 BELL_BORE, MAGNETS, MAGNET_POCKET = "F7", "H7", "H9"
 PRESSED_CAM, CAM_BORE = "k5", "H6"
-"""Seat of a loose eccentric cam, and its bore: within 10 um true to the seat while its compound
-sets, which alone holds it; more interference would tear its thin side and gain nothing."""
+"""Seat of a loose eccentric cam, and its bore: within about 10 um true to the seat while its
+compound sets, which alone holds it; more interference would tear its thin side and gain nothing."""
 LOOSE_LOBE = "g5"
 """Of a loose cam, which is ground before it is pressed on, and grows: by no more than about what a
 lobe of h6 is larger."""
