@@ -76,7 +76,7 @@ def examine(folder: Path) -> list[Finding]:
         *(_package(wanted) for wanted in _each_once(_wanted())),
         *(_library(name, package) for name, package in SYSTEM_LIBRARIES.items()),
         _browser(),
-        *(_writable(folder / name) for name in OUTPUTS),
+        *(writable(folder / name) for name in OUTPUTS),
     ]
 
 
@@ -261,7 +261,8 @@ def _browser() -> Finding:
     )
 
 
-def _writable(folder: Path) -> Finding:
+def writable(folder: Path) -> Finding:
+    """Whether a folder can be written, or made where none stands."""
     standing = folder
     while not standing.exists() and standing != standing.parent:
         standing = standing.parent

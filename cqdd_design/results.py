@@ -5,12 +5,19 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 Status = Literal["pass", "warn", "fail", "unknown"]
+
+
+def read_only(values: NDArray[Any]) -> NDArray[Any]:
+    """A view of an array that cannot be written: what a result holds stays as it was found."""
+    seen = values.view()
+    seen.flags.writeable = False
+    return seen
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,9 @@ from cqdd_design.errors import DependencyError
 def doctor(out: Output) -> int:
     """Look for everything the package needs; exit code 5 when something is missing."""
     from cqdd_design.environment import examine, project_folder
+    from cqdd_design.roads.places import kept_places
 
-    findings = examine(project_folder())
+    findings = [*examine(project_folder()), *kept_places()]
     missing = [finding for finding in findings if finding.state == "missing"]
     out.say(table([[f.state, f.name, f.detail] for f in findings]))
     out.say("", f"{len(missing)} missing" if missing else "everything needed is here")

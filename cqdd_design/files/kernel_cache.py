@@ -22,7 +22,7 @@ from numba.core.caching import FunctionCache
 
 from cqdd_design.files.kernel_stamp import kernel_stamp
 
-__all__ = ["cache_place", "kept_signatures", "numba"]
+__all__ = ["KEPT_IN", "cache_place", "kept_signatures", "numba"]
 
 _log = logging.getLogger("cqdd_design")
 
@@ -60,14 +60,16 @@ def _guard() -> None:
     FunctionCache.save_overload = stamped  # type: ignore[method-assign]
 
 
-def _find_place() -> None:
+def _find_place() -> str:
     """Keep kernels for this run alone where none of numba's folders can be written.
+
+    Returns the folder in which they are kept; nothing for one run.
 
     In a folder of this user, since what is read from it is run.
     """
     place: Any = FunctionCache
     try:
-        place(_guard)
+        return str(place(_guard).cache_path)
     except RuntimeError:
         folder = tempfile.mkdtemp(prefix="cqdd-design-kernels-")
         # Processes that are started inherit the variable.
@@ -79,6 +81,7 @@ def _find_place() -> None:
             "no folder for compiled kernels can be written, so every run compiles them; "
             "set NUMBA_CACHE_DIR to one"
         )
+        return ""
 
 
 def _clear(folder: str, owner: int) -> None:
@@ -110,5 +113,6 @@ def kept_signatures(cache: Any) -> list[Any]:
         return []
 
 
-_find_place()
+KEPT_IN = _find_place()
+"""Folder of this module's kernels, where there are some; empty where they are kept for one run."""
 _guard()

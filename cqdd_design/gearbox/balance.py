@@ -115,14 +115,18 @@ def stack_balance(
     throw = throw_mass * eccentricity * np.stack([np.cos(phases), np.sin(phases)])
     static = throw.sum(axis=1)
     couple = (throw * heights).sum(axis=1)
+    size, moment = float(np.abs(throw).sum()), float(np.abs(throw * heights).sum())
+    moment += size * disc_thickness
     for part in crank_parts:
+        first = float(part.mass * np.hypot(*part.centre[:2]))
+        size += first
+        moment += first * abs(float(part.centre[2])) + float(np.abs(part.inertia[:2, 2]).sum())
         static = static + part.mass * part.centre[:2]
         couple = couple + part.mass * part.centre[2] * part.centre[:2]
         # The tensor holds -integral(x z dm), about the part's own centre of mass.
         couple = couple - part.inertia[:2, 2]
-    parts_moment = float(np.abs(throw).sum())
-    static_size = _without_noise(float(np.hypot(*static)), parts_moment)
-    couple_size = _without_noise(float(np.hypot(*couple)), parts_moment * disc_thickness)
+    static_size = _without_noise(float(np.hypot(*static)), size)
+    couple_size = _without_noise(float(np.hypot(*couple)), moment)
     return StackBalance(
         disc_count=disc_count,
         throw_mass=throw_mass,

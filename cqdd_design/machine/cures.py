@@ -21,6 +21,8 @@ _FEW_LOOKS = 8
 """The same where a look costs much."""
 _NEAR = 1e-3
 """Of a limit, how much may be left of it."""
+_CLOSE = 1.05
+"""From one torque to another, up to which it is not looked on there."""
 ROUGHLY = 5e-3
 """The same where a look costs much."""
 SEARCHED_CASES = 8
@@ -71,12 +73,14 @@ def torques_that_hold(
 def _most(margin: Callable[[float], float], tried: Iterable[float], near: float) -> float:
     """The most torque whose margin is 1, starting from what has been tried."""
     known = {at: margin(at) for at in tuple(tried)}
-    in_a_row, looks = 0, _LOOKS if near < ROUGHLY else _FEW_LOOKS
-    for _ in range(looks):
+    in_a_row, few = 0, _LOOKS if near < ROUGHLY else _FEW_LOOKS
+    for look in range(_LOOKS):
         above = min((at for at, value in known.items() if value < 1.0), default=math.inf)
         below = max((at for at, value in known.items() if value >= 1.0 and at < above), default=0.0)
         if below and (known[below] < 1.0 + near or above / below < 1.0 + near):
             return below
+        if look >= few and (not below or above / below < _CLOSE):
+            break
         if math.isinf(above):
             at = _higher(known, below, near)
         elif below and in_a_row > 1:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 
 from cqdd_design.actuator.operating import judge
 from cqdd_design.actuator.shock import simulated_torque
@@ -12,6 +13,7 @@ from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.gearbox.precision.precision import precision
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine.carrying import carried_torque
+from cqdd_design.machine.cures import ROUGHLY, torques_that_hold
 from cqdd_design.machine.heat_nodes import Node
 from cqdd_design.results import Check
 from cqdd_design.solids.motor_rules import light_rotor
@@ -67,16 +69,21 @@ def _shock(evidence: Evidence) -> Iterator[Check]:
         yield build_check("SHOCK-STOP", None, limit, why, "see what is not known")
         return
     torque = simulated_torque(actuator, speed)
-    # Of a spring the torque goes with the speed.
-    slower = rounded_down(speed * min(limit / torque, 1.0)) if torque > 0.0 else speed
-    yield build_check(
-        "SHOCK-STOP",
-        torque,
-        limit,
-        f"{torque:.4g} N*m from {speed:.4g} rad/s; first to give way: {carried.limits[0].words}",
-        f"stay below about {slower:g} rad/s where the output may be stopped, or take a gearbox "
-        "that carries more",
-    )
+    told = f"{torque:.4g} N*m from {speed:.4g} rad/s; first to give way: {carried.limits[0].words}"
+    more = "take a gearbox that carries more"
+    line = build_check("SHOCK-STOP", torque, limit, told, more)
+    if line.status == "fail" and not machine.stiff:
+        # Backlash, friction and the motor's side take their part: not in proportion to the speed.
+        held = torques_that_hold(
+            lambda slower: (replace(line, value=simulated_torque(actuator, slower)),),
+            speed,
+            (line,),
+            near=ROUGHLY,
+        )
+        if slower := held[line.id]:
+            stay = f"stay below {rounded_down(slower):g} rad/s where the output may be stopped"
+            line = replace(line, remedy=f"{stay}, or {more}")
+    yield line
 
 
 def _bore(evidence: Evidence) -> Iterator[Check]:

@@ -142,7 +142,7 @@ def _heat(
 
 def _drawn(machine: Machine, samples: int, sensitivity: bool) -> tuple[Drawn | None, str]:
     if not samples:
-        return None, "no gearboxes were drawn"
+        return None, "no toleranced gearboxes were drawn here; `check` draws them"
     try:
         return drawn_gearboxes(machine, samples, sensitivity=sensitivity), ""
     except (ContactError, UsageError) as error:

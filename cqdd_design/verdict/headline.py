@@ -38,7 +38,10 @@ class Figure:
     value, required : float or None
         In `unit`; None where not known, and where nothing is asked.
     basis : str
-        The model it comes from, and what it counts.
+        The model it comes from, and what it counts; where it is not known and that has a reason of
+        its own, the reason.
+    missing : str
+        That reason.
     """
 
     id: str
@@ -48,17 +51,20 @@ class Figure:
     required: float | None
     status: Status
     basis: str
+    missing: str = ""
 
     @property
     def told(self) -> str:
         """In a line: ``pass  mass: 0.82 kg, 1 asked``."""
-        value = "not known" if self.value is None else f"{self.value:.4g} {self.unit}".rstrip()
+        value = f"{self.value or 0.0:.4g} {self.unit}".rstrip()
+        if self.value is None:
+            value = f"not known ({self.missing})" if self.missing else "not known"
         asked = "" if self.required is None else f", {self.required:.4g} asked"
         return f"{self.status:7}  {self.title}: {value}{asked}"
 
     def to_dict(self) -> dict[str, object]:
         """The JSON form."""
-        return dict(vars(self))
+        return {key: value for key, value in vars(self).items() if key != "missing" or value}
 
 
 def headline(evidence: Evidence, lines: Sequence[Check]) -> tuple[Figure, ...]:
@@ -158,7 +164,8 @@ def backlash(evidence: Evidence) -> Figure:
     drawn = evidence.drawn and evidence.drawn.continuous
     title, basis = "backlash of 95 % of the gearboxes", "gearboxes drawn from the tolerances"
     if drawn is None or not len(drawn.values):
-        return Figure("backlash_p95", title, None, "arcmin", None, "unknown", basis)
+        why = evidence.drawn_missing or "no gearbox could be solved"
+        return Figure("backlash_p95", title, None, "arcmin", None, "unknown", why, why)
     value = float(drawn.statistics()["backlash_arcmin"]["p95"])
     return Figure("backlash_p95", title, value, "arcmin", None, "pass", basis)
 

@@ -24,6 +24,11 @@ from cqdd_design.results import Check
 from cqdd_design.solids.motor_rules import bell_material, bell_torque
 
 _MEGA = 1e6
+_CURRENT = "motor.current_limit"
+_WIDER = (
+    "leave room for larger support bearings, whose bore is the stub's diameter (a cam bearing with "
+    "a larger bore)"
+)
 DOWELS = ("DOWEL-SHEAR", "DOWEL-BEARING")
 
 
@@ -86,6 +91,23 @@ def _judged(found: tuple[LoadedDowels, ...]) -> tuple[Check, Check]:
 
 def bell_line(machine: Machine, warm: MachineTemperatures | None) -> Check:
     """The bond between the shaft and the motor's bell, at the motor's torque; see `joint_lines`."""
+    line = _bell(machine, warm)
+    if line.status != "fail" or machine.stiff or not line.limit:
+        return line
+    # The hub is as long as its torque asks for, so that less of it need not help.
+    held = torques_that_hold(
+        lambda current: (_bell(machine.changed({_CURRENT: current}), warm),),
+        machine.design.motor.current_limit,
+        (line,),
+        near=ROUGHLY,
+    )
+    ways = [_WIDER]
+    if current := held[line.id]:
+        ways.append(f"lower {_CURRENT} to {rounded_down(current):g} A")
+    return replace(line, remedy="; or ".join((*ways, "cool it")))
+
+
+def _bell(machine: Machine, warm: MachineTemperatures | None) -> Check:
     name, design = "BELL-JOINT", machine.design
     try:
         layout = machine.layout
@@ -105,14 +127,12 @@ def bell_line(machine: Machine, warm: MachineTemperatures | None) -> Check:
     stub, long = layout.shaft.support.bearing.bore_diameter, motor.hub_top - motor.hub_bottom
     torque = bell_torque(design, layout.motor_row)
     value = joint_shear(torque, stub, long)
-    less = limit.value / value * design.motor.current_limit
-    cure = (
-        "leave room for larger support bearings, whose bore is the stub's diameter (a cam bearing "
-        f"with a larger bore); or lower motor.current_limit to {rounded_down(less):g} A"
-        if less
-        else f"cool it: no strength of {ROTOR_COMPOUND.name} is known beyond "
-        f"{ROTOR_COMPOUND.hottest:g} degC"
-    )
+    cure = _WIDER
+    if not limit.value:
+        cure = (
+            f"cool it: no strength of {ROTOR_COMPOUND.name} is known beyond "
+            f"{ROTOR_COMPOUND.hottest:g} degC"
+        )
     return build_check(
         name,
         value / _MEGA,

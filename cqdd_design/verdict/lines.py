@@ -14,11 +14,7 @@ from cqdd_design.gearbox.checks.equilibrium import (
 )
 from cqdd_design.gearbox.checks.guide_row import RIGID
 from cqdd_design.gearbox.checks.remedies import PEAK_KEY, lower_peak
-from cqdd_design.gearbox.checks.rubbing import rubbing_check
 from cqdd_design.gearbox.checks.state import build_check
-from cqdd_design.gearbox.contact.rubbing import ContactFriction
-from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
-from cqdd_design.gearbox.film.plastics import rubbing_plastics, sliding_plastics
 from cqdd_design.machine import Machine
 from cqdd_design.machine.cures import SEARCHED_CASES, torques_that_hold
 from cqdd_design.results import Check
@@ -31,14 +27,13 @@ from cqdd_design.verdict.joint_lines import joint_lines
 from cqdd_design.verdict.motor import motor_lines
 from cqdd_design.verdict.retention_lines import retention_lines
 from cqdd_design.verdict.rotor_lines import rotor_lines
+from cqdd_design.verdict.rubbing_lines import rubbing_lines
 from cqdd_design.verdict.screw_lines import screw_lines
 from cqdd_design.verdict.shaft_lines import shaft_lines
 
 _BODIES = tuple(
     f"{part}-{kind}" for part in ("LIGAMENT", "ROOT", "RING") for kind in ("STRESS", "FATIGUE")
 )
-_ANGLES = 120
-"""Crank angles over the period at which plastics are looked at."""
 _HEAT = ("THERMAL-RISE", "THERMAL-CLEARANCE")
 
 
@@ -59,7 +54,7 @@ def verdict_lines(evidence: Evidence) -> tuple[Check, ...]:
         *cam_lines(machine, evidence.temperatures),
         *screw_lines(machine),
         *retention_lines(machine, evidence.temperatures),
-        *_rubbing(machine),
+        *rubbing_lines(machine),
     )
     lines += creep_lines(machine, lines)
     lines += evidence.stress_checks or _missing(_BODIES, evidence.stress_missing)
@@ -128,25 +123,6 @@ def _lasting(machine: Machine) -> tuple[Check, ...]:
         return lasting_checks(state, machine.under(duty_share=share).life)
 
     return lasting_checks(state, lived, torques_that_hold(at, 1.0, found))
-
-
-def _rubbing(machine: Machine) -> tuple[Check, ...]:
-    """The line of plastics that slide at output pins; none where nothing does."""
-    design, model = machine.design, machine.contact
-    if not sliding_plastics(design, model):
-        return ()
-    torque = design.requirements.continuous_torque
-    try:
-        sweep = contact_sweep(
-            model,
-            torque,
-            perfect_angles(model, _ANGLES),
-            friction=ContactFriction.of(model, "drive"),
-        )
-    except ContactError as error:
-        return (build_check("PIN-RUBBING", None, None, error.message, "see CONTACT-REACH"),)
-    speed = design.requirements.held_speed
-    return (rubbing_check(rubbing_plastics(design, model, sweep, speed), torque),)
 
 
 def _missing(ids: tuple[str, ...], why: str) -> tuple[Check, ...]:

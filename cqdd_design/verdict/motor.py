@@ -23,7 +23,7 @@ from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Requirements
 from cqdd_design.errors import DesignError
-from cqdd_design.gearbox.checks.remedies import PEAK_KEY, lower_peak, lower_to
+from cqdd_design.gearbox.checks.remedies import PEAK_KEY, lower_peak
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.geometry.limits import rounded_down, rounded_up
 from cqdd_design.machine import Machine
@@ -38,6 +38,7 @@ _RAISED = {
     DRIVER: "motor.current_limit (and requirements.current where it is stated) to about {:g} A",
 }
 """What to raise where it binds."""
+_LOWER_CONTINUOUS = "lower requirements.continuous_torque to about"
 _MOST_RAISED = 10.0
 """Above so many times what there is it is no cure."""
 _FIGURES = (
@@ -145,8 +146,9 @@ def _continuous(
     slower = "lower requirements.continuous_speed"
     if asked.continuous_speed is None:
         slower = "state as continuous_speed at which speed it is held, if that is less"
-    # What friction alone overheats holds nothing while it turns.
-    lower = f"{lower_to(most, 'requirements.continuous_torque')}, " if most > 0.0 else ""
+    # What friction alone overheats holds nothing while it turns. Friction is put in two numbers at
+    # the torque that is asked for: at a lower one a little more may be held.
+    lower = f"{_LOWER_CONTINUOUS} {rounded_down(most):g} N*m, " if most > 0.0 else ""
     return build_check(
         "MOTOR-CONTINUOUS",
         most,

@@ -55,7 +55,7 @@ def shaft_lines(machine: Machine) -> tuple[Check, ...]:
         rotor = _rotor(machine)
         return (
             *_cured(machine, peak, duty, rotor),
-            _support_life(machine, duty, rotor),
+            _support_life_cured(machine, duty, rotor),
             *_output(machine, peak, duty, rotor),
         )
     except (CatalogError, ContactError, GeometryError) as error:
@@ -197,6 +197,21 @@ def _support_life(machine: Machine, duty: PackLoads, rotor: _Rotor) -> Check:
     loads = with_still_force(support_loads(machine, duty), rotor.on_bearings)
     known = chosen.source != "bush"
     return _life("SUPPORT-LIFE", machine, chosen.bearing if known else None, loads, slip, _WIDER)
+
+
+def _support_life_cured(machine: Machine, duty: PackLoads, rotor: _Rotor) -> Check:
+    """With the torques of the duty at which both last, where there are any."""
+    line = _support_life(machine, duty, rotor)
+    if line.status != "fail" or machine.stiff or len(machine.life.duty) > SEARCHED_CASES:
+        return line
+
+    def over_duty(share: float) -> tuple[Check]:
+        return (_support_life(machine, machine.under(duty_share=share).life.pack, rotor),)
+
+    share = torques_that_hold(over_duty, 1.0, (line,), near=ROUGHLY)[line.id]
+    if not share:
+        return line
+    return replace(line, remedy=f"{line.remedy}; or {lower_duty(machine.life, share)}")
 
 
 def _output(

@@ -158,6 +158,24 @@ def test_doctor_finds_what_is_installed(cqdd):
     assert found["browser"]["state"] in {"ok", "optional"}
 
 
+def test_doctor_names_a_place_for_kernels_and_results(monkeypatch, tmp_path):
+    from cqdd_design import environment
+    from cqdd_design.files import kernel_cache
+    from cqdd_design.roads.places import kept_places
+
+    monkeypatch.setenv("CQDD_DESIGN_CACHE", str(tmp_path / "kept"))
+    here = {one.name: one for one in kept_places()}
+    assert here["compiled kernels"].state == here["kept results"].state == "ok"
+    assert kernel_cache.KEPT_IN in here["compiled kernels"].detail
+    monkeypatch.setattr(kernel_cache, "KEPT_IN", "")
+    monkeypatch.setenv("CQDD_DESIGN_CACHE", "/proc/none")
+    monkeypatch.setattr(environment.os, "access", lambda *_: False)
+    none = {one.name: one for one in kept_places()}
+    assert none["compiled kernels"].state == none["kept results"].state == "optional"
+    assert "NUMBA_CACHE_DIR" in none["compiled kernels"].detail
+    assert "CQDD_DESIGN_CACHE" in none["kept results"].detail
+
+
 def test_doctor_says_each_thing_once(cqdd):
     """Extras repeat each other's packages; people get one line a thing, and no echo on stderr."""
     done = cqdd("doctor", "--json")

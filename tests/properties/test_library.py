@@ -14,6 +14,7 @@ import pint
 import pytest
 
 import cqdd_design as cq
+from cqdd_design.actuator.bench.metric import Metric
 from cqdd_design.errors import CqddError, DependencyError, DesignError, UsageError
 from cqdd_design.library.asked import Asked, AskedOfScenario
 from cqdd_design.library.results import Result
@@ -434,3 +435,27 @@ def test_a_calibration_of_another_design_is_told():
     assert (specimen.seed, dict(specimen.factors), told) == (3, {"motor_coulomb": 2.0}, ())
     _, (sentence,) = specimen_given(other, None, fitted)
     assert sentence.startswith("the calibration is of another design (cqdd-10)")
+
+
+def test_what_a_result_holds_cannot_be_changed() -> None:
+    """Statistics, pages and files are of it."""
+    drawn = cq.tolerance("cqdd-10", samples=4)
+    for column in drawn.found.columns.values():
+        with pytest.raises(ValueError, match="read-only"):
+            column[0] = 1.0
+    with pytest.raises(ValueError, match="read-only"):
+        drawn.found.numbers[0] = 7
+
+
+def test_traces_of_the_bench_cannot_be_changed() -> None:
+    trace = np.arange(3.0)
+    metric = Metric("mass", 1.0, "predicted", "weighed", trace={"t_s": trace})
+    with pytest.raises(ValueError, match="read-only"):
+        metric.trace["t_s"][0] = 1.0
+    trace[0] = 5.0  # its maker's own array stays writable
+
+
+def test_a_figure_that_was_not_drawn_says_so() -> None:
+    found = cq.analyse("cqdd-10")
+    (line,) = (one for one in repr(found.verdict).splitlines() if "backlash" in one)
+    assert "not known (no toleranced gearboxes were drawn here; `check` draws them)" in line

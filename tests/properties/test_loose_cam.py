@@ -165,7 +165,7 @@ def test_a_cam_that_is_too_weak_fails_and_its_remedy_cures(machine: Machine) -> 
     cured = cam_line(machine.changed({"requirements.peak_torque": f"{named[1]} N*m"}), None)
     assert cured is not None
     assert cured.status == "pass"
-    assert cured.margin < 1.01
+    assert cured.margin < 1.025
 
 
 def test_no_torque_is_looked_for_where_the_compound_has_no_strength_left(

@@ -11,6 +11,7 @@ from typing import Literal
 from cqdd_design.actuator.parameters import FloatArray
 from cqdd_design.catalog import paper
 from cqdd_design.errors import UsageError, did_you_mean
+from cqdd_design.results import read_only
 
 Relation = Literal["given", "calibrated", "predicted", "not comparable"]
 
@@ -84,6 +85,11 @@ class Metric:
     trace: Mapping[str, FloatArray] = field(default_factory=dict)
     remark: str = ""
     missing: str = ""
+
+    def __post_init__(self) -> None:
+        """Let nobody change a trace that is written and drawn."""
+        seen = {name: read_only(values) for name, values in self.trace.items()}
+        object.__setattr__(self, "trace", MappingProxyType(seen))
 
     @property
     def known(self) -> float | None:

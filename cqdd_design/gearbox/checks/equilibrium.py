@@ -26,13 +26,13 @@ from cqdd_design.gearbox.checks.remedies import (
     lower_shares,
     lower_to,
     stronger_pins,
+    thicker_ring_pin,
 )
 from cqdd_design.gearbox.checks.state import GearboxState, build_check
 from cqdd_design.gearbox.life import LifeResult
 from cqdd_design.gearbox.life.result import PartLife
 from cqdd_design.gearbox.life.runners import RunnerLife
 from cqdd_design.gearbox.pin_beam import HELD
-from cqdd_design.geometry.limits import rounded_up
 from cqdd_design.results import Check
 
 MODEL = "contact equilibrium of perfect parts, driving with friction"
@@ -287,7 +287,7 @@ def _ring_pin(
     arm = float(slender_bending_arm(*stack, HELD["both"], 4.0))
     diameter = reducer.ring_pin_diameter
     stress = float(output_pins.bending_stress(force, arm, diameter))
-    thicker = rounded_up(diameter * 1e3 * (stress / max(allowed.value, 1.0)) ** (1.0 / 3.0))
+    thicker = diameter * (stress / max(allowed.value, 1.0)) ** (1.0 / 3.0)
     check_id = f"RING-PIN-BENDING-{load}"
     check = _limited(
         check_id,
@@ -295,7 +295,7 @@ def _ring_pin(
         allowed,
         f"32 x {force:.1f} N x {arm * 1e3:.4f} mm/(pi ({diameter * 1e3:g} mm)^3) = "
         f"{stress / _MEGA:.1f} MPa",
-        f"raise ring_pin_diameter to {thicker:g} mm, or "
+        f"{thicker_ring_pin(reducer, thicker)}, or "
         + lower(check_id, allowed.value / max(stress, 1.0)),
         model=model,
     )
@@ -389,13 +389,14 @@ def _cam_life(state: GearboxState, life: LifeResult, cures: Cures) -> Check:
 def _runner_life(state: GearboxState, life: LifeResult, runner: RunnerLife, cures: Cures) -> Check:
     check_id = "SLEEVE-LIFE" if runner.name == "sleeves" else "ROLLER-LIFE"
     required = life.required_hours
+    needles = state.sleeves if check_id == "SLEEVE-LIFE" else state.rollers
     if runner.unknown:
         return build_check(
             check_id,
             None,
             required,
             f"{runner.name} on their pins: {runner.unknown}",
-            "take needles, whose life is known",
+            "see why it is not known" if needles else "take needles, whose life is known",
             model=DUTY_MODEL,
         )
     hours = ENDLESS if runner.set_hours is None else runner.set_hours

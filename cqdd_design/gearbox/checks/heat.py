@@ -59,9 +59,7 @@ def cooling_remedy(enough: float | None = None, *, duty: bool = False) -> str:
 
     What warm parts lose is known only once they are, mostly less than as drawn.
     """
-    told = (
-        "" if enough is None else f": {rounded_down(enough):g} K/W from winding to air are enough"
-    )
+    told = "" if not enough else f": {rounded_down(enough):g} K/W from winding to air are enough"
     cool = f"cool it{told} (state what cooling reaches as drive.thermal_resistance), or "
     if enough == 0.0:
         cool = "no cooling is enough: "

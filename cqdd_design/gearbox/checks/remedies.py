@@ -163,6 +163,21 @@ def _compliance(material: Material) -> float:
     return (1.0 - material.poisson_ratio**2) / material.youngs_modulus
 
 
+def thicker_ring_pin(reducer: Reducer, least: float) -> str:
+    """To make pins under rollers at least as thick, m, and the rollers that go over them."""
+    thick = rounded_up(least * 1e3)
+    if reducer.ring.roller == "needle":
+        return (
+            f"take ring pins of at least {thick:g} mm that a needle cage runs on (`cqdd-design "
+            "catalog bearings`), in rollers as much wider"
+        )
+    words = f"raise ring_pin_diameter to {thick:g} mm"
+    outside = rounded_up(thick + 2e3 * allowables.SLEEVE_WALL)
+    if reducer.ring.roller_diameter * 1e3 < outside:
+        words += f" and ring.roller_diameter to {outside:g} mm"
+    return words
+
+
 def stronger_capacity(state: GearboxState, torque: float, needed: float) -> str:
     """Remedy for a capacity in shear, which grows with the square of the pin's diameter."""
     thicker = state.design.reducer.output_pins.diameter * math.sqrt(needed / torque)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from cqdd_design.gearbox.checks.remedies import torque_words
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.gearbox.film.plastics import RubbingPlastic
 from cqdd_design.results import Check
@@ -10,10 +9,20 @@ from cqdd_design.results import Check
 _MEGA = 1e6
 
 
-def rubbing_check(found: tuple[RubbingPlastic, ...], torque: float) -> Check:
+_NEEDLES = 'or put needles on the pins (output_pins.sleeve = "needle", in a sleeve_diameter)'
+
+
+def rubbing_check(
+    found: tuple[RubbingPlastic, ...], torque: float, lower: str = "lower the torque or the speed"
+) -> Check:
     """Check ``PIN-RUBBING`` of one plastic or more at a torque (N m).
 
     One that exceeds its limit is told before one whose limit is not known.
+
+    Parameters
+    ----------
+    lower : str
+        How far to lower the torque, in words.
     """
     worst = max(found, key=_used)
     told = (
@@ -26,18 +35,14 @@ def rubbing_check(found: tuple[RubbingPlastic, ...], torque: float) -> Check:
             worst.value / _MEGA,
             None,
             f"{told}; the catalogue has no limit of it",
-            "name a plastic that has one (`cqdd-design catalog rubbing`), or put needles on the "
-            'pins (output_pins.sleeve = "needle")',
+            f"name a plastic that has one (`cqdd-design catalog rubbing`), {_NEEDLES}",
         )
-    share = worst.limit / max(worst.value, 1e-12)
     return build_check(
         "PIN-RUBBING",
         worst.value / _MEGA,
         worst.limit / _MEGA,
         f"{told}; dry on steel",
-        f"lower requirements.continuous_torque to {torque_words(torque * share)}, or the speed as "
-        "much; make discs thicker or pins more; or put needles on the pins "
-        '(output_pins.sleeve = "needle")',
+        f"{lower}; make discs thicker or pins more; {_NEEDLES}",
         basis=worst.source,
     )
 

@@ -12,11 +12,10 @@ from cqdd_design.gearbox.cam_bearing import BearingResult
 from cqdd_design.gearbox.carrier import slender_bending_arm
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.allowables import UNEVEN_SHARING, Allowable
-from cqdd_design.gearbox.checks.remedies import lower_screened
+from cqdd_design.gearbox.checks.remedies import lower_screened, thicker_ring_pin
 from cqdd_design.gearbox.checks.state import GearboxState, build_check
 from cqdd_design.gearbox.loads import RigidMaxima
 from cqdd_design.gearbox.pin_beam import HELD
-from cqdd_design.geometry.limits import rounded_up
 from cqdd_design.geometry.runners import Runner, pin_runner, ring_runner
 from cqdd_design.results import Check
 
@@ -118,8 +117,8 @@ def _ring_pins(state: GearboxState) -> tuple[Check, ...]:
         stress = float(output_pins.bending_stress(force, arm, diameter))
         remedy = lower_screened(state, load, allowed.value / stress)
         if allowed.value > 0.0:
-            thicker = rounded_up(diameter * 1e3 * (stress / allowed.value) ** (1.0 / 3.0))
-            remedy = f"raise ring_pin_diameter to {thicker:g} mm, or {remedy}"
+            thicker = diameter * (stress / allowed.value) ** (1.0 / 3.0)
+            remedy = f"{thicker_ring_pin(reducer, thicker)}, or {remedy}"
         return build_check(
             check_id,
             stress / 1e6,

@@ -135,8 +135,7 @@ def _ligaments(state: GearboxState) -> tuple[Check, ...]:
         one(
             "GEO-LIGAMENT-HOLES",
             "hole to hole",
-            f"raise output_pins.circle_radius to {rounded_up(_mm(between), 4):g} mm, or use fewer "
-            "or thinner pins",
+            _outward(state, rounded_up(_mm(between), 4)) + "use fewer or thinner pins",
         ),
         one(
             "GEO-LIGAMENT-PROFILE",
@@ -146,8 +145,8 @@ def _ligaments(state: GearboxState) -> tuple[Check, ...]:
         one(
             "GEO-LIGAMENT-BORE",
             "hole to bore",
-            f"raise output_pins.circle_radius to {rounded_up(_mm(circle + to_bore), 4):g} mm, or "
-            f"use a cam bearing of at most {_mm(bearing.outer_diameter - 2.0 * to_bore):.2f} mm "
+            _outward(state, rounded_up(_mm(circle + to_bore), 4))
+            + f"use a cam bearing of at most {_mm(bearing.outer_diameter - 2.0 * to_bore):.2f} mm "
             "outside diameter",
         ),
         one(
@@ -158,6 +157,21 @@ def _ligaments(state: GearboxState) -> tuple[Check, ...]:
         ),
         *columns,
     )
+
+
+def _outward(state: GearboxState, circle: float) -> str:
+    """To raise the circle of the holes, mm, with "or"; nothing where they come too near the lobes.
+
+    The lobes' nearest point moves along them, so it is looked at.
+    """
+    bore = state.cam_bearing.bearing.outer_diameter
+    key = "reducer.output_pins.circle_radius"
+    with suppress(CqddError):
+        moved = ligaments(state.design.replacing({key: 1e-3 * circle}), bore_diameter=bore)
+        beside = next(one.thickness for one in moved if one.kind == "hole to profile")
+        if beside >= allowables.LIGAMENT - _SLACK:
+            return f"raise output_pins.circle_radius to {circle:g} mm, or "
+    return ""
 
 
 def _inward(state: GearboxState) -> str:

@@ -17,6 +17,7 @@ from cqdd_design.gearbox.tolerance.evaluate import OUTPUTS, marked_angles
 from cqdd_design.gearbox.tolerance.limits import limits
 from cqdd_design.gearbox.tolerance.sobol import SobolIndices, sobol_indices
 from cqdd_design.geometry.contours import FloatArray
+from cqdd_design.results import read_only
 
 Progress = Callable[[int, int], None]
 
@@ -74,6 +75,11 @@ class ToleranceResult:
     solves: int
     seconds: float
     interrupted: bool
+
+    def __post_init__(self) -> None:
+        """Let nobody change what statistics are of."""
+        object.__setattr__(self, "values", read_only(self.values))
+        object.__setattr__(self, "numbers", read_only(self.numbers))
 
     def first(self, count: int) -> ToleranceResult:
         """The same result of the first `count` gearboxes alone."""
