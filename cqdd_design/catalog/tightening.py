@@ -174,6 +174,17 @@ def tightening_torque(
     return preload * (0.16 * thread.pitch + (0.58 * d2 + 0.5 * head) * friction)
 
 
+def torque_words(torque: float) -> str:
+    """A tightening torque (N m) as sheets, bills and checks state it, its unit left out.
+
+    Examples
+    --------
+    >>> torque_words(2.2841)
+    '2.28'
+    """
+    return f"{torque:.3g}"
+
+
 def stripping_force(thread: Thread, engaged: float, strength: float) -> float:
     """Force that shears a nut thread off over an engaged length (m), N; its shear strength in Pa.
 

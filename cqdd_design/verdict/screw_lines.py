@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from cqdd_design.catalog.tightening import torque_words
 from cqdd_design.errors import CatalogError, ContactError, GeometryError
 from cqdd_design.gearbox.checks.allowables import SLIP_SAFETY, THREAD_SAFETY, screw_limit
 from cqdd_design.gearbox.checks.remedies import lower_peak
 from cqdd_design.gearbox.checks.state import build_check
-from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine
 from cqdd_design.machine.cures import ROUGHLY, torques_that_hold
 from cqdd_design.machine.screws import ScrewJoint, screw_joints
@@ -90,7 +90,7 @@ def _preload(every: tuple[ScrewJoint, ...]) -> Check:
 def _torque(one: ScrewJoint) -> str:
     """That is stated for it, in words."""
     torque = one.clamping.torque
-    return f"{rounded_down(torque, 2):g} N*m" if torque > 0.0 else "no torque"
+    return f"{torque_words(torque)} N*m" if torque > 0.0 else "no torque"
 
 
 def _thread(every: tuple[ScrewJoint, ...]) -> Check:
