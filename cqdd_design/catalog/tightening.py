@@ -71,7 +71,7 @@ class Clamping:
 
         Seat and thread of a plastic whose creep is known bear it for long.
         """
-        most = [preload_at_yield(self.thread, UTILISATION * (self.screw.yield_strength or 0.0))]
+        most = [self._bears]
         seats = self.clamped.yield_strength, self.clamped.held_stress
         most += [seat * self.bearing_area for seat in seats if seat is not None]
         if self.stripping is not None:
@@ -80,6 +80,16 @@ class Clamping:
         if held is not None:
             most.append(stripping_force(self.thread, self.engaged, SHEAR_SHARE * held))
         return min(most)
+
+    @property
+    def screw_yields(self) -> bool:
+        """Whether the screw is what bears no more preload, not head's seat nor thread."""
+        return self.preload >= self._bears
+
+    @property
+    def _bears(self) -> float:
+        """Preload that the screw itself bears, N."""
+        return preload_at_yield(self.thread, UTILISATION * (self.screw.yield_strength or 0.0))
 
     @property
     def bearing_area(self) -> float:

@@ -19,6 +19,7 @@ from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.body_analysis import judged_bodies
 from cqdd_design.machine.carrying import torque_limits
 from cqdd_design.machine.cures import torques_that_hold
+from cqdd_design.machine.screws import screw_joints
 from cqdd_design.results import Check
 from cqdd_design.verdict.creep_lines import creep_lines
 from cqdd_design.verdict.lines import _carried
@@ -91,6 +92,39 @@ def test_lines_of_shaft_and_screws_hold_at_the_torque_that_they_name(paper):
             machine = resolve(paper.replacing(changes))
             told = {one.id: one for one in (*shaft_lines(machine), *screw_lines(machine))}
             assert told[check_id].status == status, (check_id, share)
+
+
+OUTSIDE = {
+    "requirements.peak_torque": 20.0,
+    "requirements.continuous_torque": 5.0,
+    "requirements.external_moment": 900.0,
+    "requirements.external_axial": 300.0,
+}
+
+
+def test_screws_hold_at_the_external_loads_that_they_name(paper):
+    slip = screw_lines(resolve(paper.replacing(OUTSIDE)))[0]
+    assert (slip.id, slip.status) == ("SCREW-SLIP", "fail")
+    told = dict(re.findall(r"(external_\w+) to ([\d.]+)", slip.remedy))
+    assert set(told) == {"external_moment", "external_axial"}
+    for more, status in ((1.0, "pass"), (1.05, "fail")):
+        lower = {f"requirements.{key}": more * float(one) for key, one in told.items()}
+        assert screw_lines(resolve(paper.replacing(OUTSIDE | lower)))[0].status == status, more
+
+
+def test_bolts_that_yield_themselves_ask_for_no_stronger_housing(paper):
+    def output(changes):
+        joints = screw_joints(resolve(paper.replacing(OUTSIDE | changes)))
+        return next(one for one in joints if one.place == "output's face")
+
+    joint = output({})
+    assert joint.clamping.screw_yields
+    assert joint.cure.startswith("raise output_pins.circle_radius")
+    wider = paper.reducer.output_pins.circle_radius + 5e-4
+    assert output({"reducer.output_pins.circle_radius": wider}).slip_safety > joint.slip_safety
+    soft = output({"housing.material": "PC-CF FDM along layers"})
+    assert not soft.clamping.screw_yields
+    assert soft.cure == "take a stronger housing.material"
 
 
 def test_shaft_that_tires_under_a_duty_speaks_of_the_duty(paper):
