@@ -71,7 +71,7 @@ class Clamping:
 
         Seat and thread of a plastic whose creep is known bear it for long.
         """
-        most = [preload_at_yield(self.thread, UTILISATION * (self.screw.yield_strength or 0.0))]
+        most = [self._bears]
         seats = self.clamped.yield_strength, self.clamped.held_stress
         most += [seat * self.bearing_area for seat in seats if seat is not None]
         if self.stripping is not None:
@@ -80,6 +80,16 @@ class Clamping:
         if held is not None:
             most.append(stripping_force(self.thread, self.engaged, SHEAR_SHARE * held))
         return min(most)
+
+    @property
+    def screw_yields(self) -> bool:
+        """Whether the screw is what bears no more preload, not head's seat nor thread."""
+        return self.preload >= self._bears
+
+    @property
+    def _bears(self) -> float:
+        """Preload that the screw itself bears, N."""
+        return preload_at_yield(self.thread, UTILISATION * (self.screw.yield_strength or 0.0))
 
     @property
     def bearing_area(self) -> float:
@@ -172,6 +182,17 @@ def tightening_torque(
     """Torque of a preload (N), N m, with friction under the head at a mean diameter (m)."""
     d2 = thread.pitch_diameter
     return preload * (0.16 * thread.pitch + (0.58 * d2 + 0.5 * head) * friction)
+
+
+def torque_words(torque: float) -> str:
+    """A tightening torque (N m) as sheets, bills and checks state it, its unit left out.
+
+    Examples
+    --------
+    >>> torque_words(2.2841)
+    '2.28'
+    """
+    return f"{torque:.3g}"
 
 
 def stripping_force(thread: Thread, engaged: float, strength: float) -> float:

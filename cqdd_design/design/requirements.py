@@ -99,6 +99,9 @@ _Angle = Annotated[
     float, QuantityIn(SMALL_ANGLE, "0.01 arcmin", "600 arcmin", "play of a gear train")
 ]
 
+EXTERNAL_LOADS = {"external_moment": "N*m", "external_axial": "N", "external_radial": "N"}
+"""Requirements of what pushes the output from outside, and the units that they are told in."""
+
 
 class Requirements(FrozenModel):
     """The requirements a gearbox is sized for and checked against.

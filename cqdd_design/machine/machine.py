@@ -11,6 +11,7 @@ from cqdd_design.catalog.bearings import Bearing
 from cqdd_design.catalog.lubricants import RUNNING_TEMPERATURE, find_lubricant
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design
+from cqdd_design.design.requirements import EXTERNAL_LOADS
 from cqdd_design.errors import GeometryError
 from cqdd_design.solids.counterweights import drawn_weights
 from cqdd_design.solids.layout import Layout
@@ -167,6 +168,17 @@ class Machine:
         """
         other = self.under(peak=peak)
         vars(other).update(seats=self.seats, layout=self.layout)
+        return other
+
+    def under_outside(self, share: float) -> Machine:
+        """The machine under a share of the external loads of its requirements.
+
+        What discs and pins put on it is the same, and not worked out again.
+        """
+        asked = self.design.requirements
+        stated = {f"requirements.{key}": getattr(asked, key) for key in EXTERNAL_LOADS}
+        other = self.changed({key: share * value for key, value in stated.items() if value})
+        vars(other).update(contact=self.contact, bodies=self.bodies, peak_pack=self.peak_pack)
         return other
 
     @property

@@ -37,7 +37,7 @@ class ScrewJoint:
     clamping: Clamping
     across: float
     along: float
-    cure: str = "take a stronger housing.material"
+    cure: str = ""
 
     @property
     def stripping_safety(self) -> float | None:
@@ -104,9 +104,15 @@ def tightening_torques(machine: Machine) -> dict[str, float]:
     return {name: one.clamping.torque for name, one in screws.items() if one is not None}
 
 
-def _loaded(screws: Tightened, across: float, along: float, cure: str | None = None) -> ScrewJoint:
-    joint = ScrewJoint(screws.place, screws.screw, screws.count, screws.clamping, across, along)
-    return joint if cure is None else replace(joint, cure=cure)
+def _loaded(screws: Tightened, across: float, along: float, cure: str = "") -> ScrewJoint:
+    return ScrewJoint(
+        screws.place, screws.screw, screws.count, screws.clamping, across, along, cure
+    )
+
+
+def _harder_or(screws: Tightened, cure: str) -> str:
+    """A stronger housing, where head's seat or thread yield before the screw; else another cure."""
+    return cure if screws.clamping.screw_yields else "take a stronger housing.material"
 
 
 def screw_joints(machine: Machine) -> tuple[ScrewJoint, ...]:
@@ -194,7 +200,12 @@ def _output(machine: Machine) -> ScrewJoint | None:
     if screws is None:
         return None
     tilting = 2.0 * (asked.external_moment or 0.0) / (OUTPUT_BOLTS * carrier.bolt_circle_radius)
-    return _loaded(screws, 0.0, (asked.external_axial or 0.0) / OUTPUT_BOLTS + tilting)
+    return _loaded(
+        screws,
+        0.0,
+        (asked.external_axial or 0.0) / OUTPUT_BOLTS + tilting,
+        _harder_or(screws, "raise output_pins.circle_radius, which sets them farther out"),
+    )
 
 
 def _output_screws(machine: Machine) -> Tightened | None:
@@ -289,7 +300,12 @@ def _motor_cover(machine: Machine) -> ScrewJoint | None:
     if screws is None or inrunner is None:
         return _unloaded(screws)
     torque = bell_torque(machine.design, machine.layout.motor_row)
-    return _loaded(screws, torque / (screws.count * inrunner.ear_circle), 0.0)
+    return _loaded(
+        screws,
+        torque / (screws.count * inrunner.ear_circle),
+        0.0,
+        _harder_or(screws, "lower motor.current_limit, whose torque they hold"),
+    )
 
 
 def _motor_cover_screws(machine: Machine) -> Tightened | None:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from cqdd_design.catalog.tightening import torque_words
+from cqdd_design.design.requirements import EXTERNAL_LOADS
 from cqdd_design.errors import CatalogError, ContactError, GeometryError
 from cqdd_design.gearbox.checks.allowables import SLIP_SAFETY, THREAD_SAFETY, screw_limit
-from cqdd_design.gearbox.checks.remedies import lower_peak
+from cqdd_design.gearbox.checks.remedies import lower_outside, lower_peak
 from cqdd_design.gearbox.checks.state import build_check
-from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine
 from cqdd_design.machine.cures import ROUGHLY, torques_that_hold
 from cqdd_design.machine.screws import ScrewJoint, screw_joints
@@ -37,7 +38,7 @@ def _loaded(machine: Machine) -> tuple[Check, ...]:
 
 
 def _cured(machine: Machine, slip: Check) -> Check:
-    """With the peak torque at which nothing slips, where there is one."""
+    """With the peak torque and the external loads at which nothing slips, where there are."""
     asked = machine.design.requirements
     cures = torques_that_hold(
         lambda torque: slips(machine.under(peak=torque)),
@@ -45,11 +46,19 @@ def _cured(machine: Machine, slip: Check) -> Check:
         (slip,),
         near=ROUGHLY,
     )
-    torque = cures.get(slip.id, 0.0)
-    if not torque:
-        return slip
-    lower = lower_peak(torque, asked.continuous_torque)
-    return replace(slip, remedy=f"{slip.remedy}; or {lower}")
+    said, torque = [slip.remedy], cures.get(slip.id, 0.0)
+    if torque:
+        said.append(lower_peak(torque, asked.continuous_torque))
+    if not machine.stiff and any(getattr(asked, key) for key in EXTERNAL_LOADS):
+        shares = torques_that_hold(
+            lambda share: (_slip(screw_joints(machine.under_outside(share))),),
+            1.0,
+            (slip,),
+            near=ROUGHLY,
+        )
+        if shares.get(slip.id):
+            said.append(lower_outside(asked, shares[slip.id]))
+    return replace(slip, remedy="; or ".join(said))
 
 
 def slips(machine: Machine) -> tuple[Check]:
@@ -95,7 +104,7 @@ def _preload(every: tuple[ScrewJoint, ...]) -> Check:
 def _torque(one: ScrewJoint) -> str:
     """That is stated for it, in words."""
     torque = one.clamping.torque
-    return f"{rounded_down(torque, 2):g} N*m" if torque > 0.0 else "no torque"
+    return f"{torque_words(torque)} N*m" if torque > 0.0 else "no torque"
 
 
 def _thread(every: tuple[ScrewJoint, ...]) -> Check:

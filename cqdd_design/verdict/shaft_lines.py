@@ -10,18 +10,18 @@ from typing import NamedTuple
 import numpy as np
 
 from cqdd_design.catalog.bearings import Bearing
+from cqdd_design.design.requirements import EXTERNAL_LOADS
 from cqdd_design.errors import CatalogError, ContactError, DesignError, GeometryError
 from cqdd_design.gearbox.bearing_life import basic_rating_life_hours, life_exponent
 from cqdd_design.gearbox.cam_bearing import rolling_element
 from cqdd_design.gearbox.checks.allowables import STATIC_SAFETY, shaft_limit_peak
 from cqdd_design.gearbox.checks.equilibrium import DUTY_MODEL, ENDLESS, lower_duty
-from cqdd_design.gearbox.checks.remedies import lower_peak
+from cqdd_design.gearbox.checks.remedies import lower_outside, lower_peak
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.gearbox.life.cam import equivalent_load, set_life
 from cqdd_design.gearbox.output_bearing import OutputLoad, dynamic_load, static_load
 from cqdd_design.gearbox.pack_loads import PackLoads
 from cqdd_design.geometry.contours import FloatArray
-from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine
 from cqdd_design.machine.carrier_bearing import bearing_for_loads
 from cqdd_design.machine.cures import ROUGHLY, SEARCHED_CASES, torques_that_hold
@@ -37,8 +37,6 @@ from cqdd_design.results import Check
 _MEGA = 1e6
 _WIDER = "leave room for larger support bearings (a cam bearing with a larger bore)"
 _LIGHTER = "lower the torque or the external loads"
-_EXTERNAL = (("external_moment", "N*m"), ("external_axial", "N"), ("external_radial", "N"))
-"""Requirements of the output, and the units that they are told in."""
 _HALVINGS = 20
 """Of the share of external loads that a bearing bears."""
 
@@ -272,7 +270,7 @@ def _less_torque(machine: Machine, lines: tuple[Check, Check]) -> dict[str, str]
 def _less_from_outside(machine: Machine, passes: Callable[[float], bool]) -> str:
     """External loads that the bearing bears, in words; nothing where it bears none, or has none."""
     asked = machine.design.requirements
-    stated = {key: (getattr(asked, key), unit) for key, unit in _EXTERNAL if getattr(asked, key)}
+    stated = any(getattr(asked, key) for key in EXTERNAL_LOADS)
     if not stated or not passes(0.0):
         return ""
     low, high = 0.0, 1.0
@@ -281,10 +279,7 @@ def _less_from_outside(machine: Machine, passes: Callable[[float], bool]) -> str
         low, high = (middle, high) if passes(middle) else (low, middle)
     if not low:
         return ""
-    told = (
-        f"{key} to {rounded_down(low * value):g} {unit}" for key, (value, unit) in stated.items()
-    )
-    return f"lower {' and '.join(told)}"
+    return lower_outside(asked, low)
 
 
 def _output_static(machine: Machine, load: OutputLoad, remedy: str, rotor: _Rotor) -> Check:

@@ -25,6 +25,7 @@ from cqdd_design.exporting.bill.substitutes import (
     passes,
 )
 from cqdd_design.exporting.options import DEFAULTS, ExportOptions, refuse_unread
+from cqdd_design.exporting.sheets.assembly_facts import AssemblyFacts
 from cqdd_design.exporting.solids.bom import (
     TOTAL,
     bill_of_materials,
@@ -36,6 +37,7 @@ from cqdd_design.machine import resolve
 from cqdd_design.machine.grease import grease_fill
 from cqdd_design.machine.screws import screw_joints
 from cqdd_design.roads.export import export
+from cqdd_design.verdict.screw_lines import screw_lines
 
 COLUMNS = [
     *("item", "part", "quantity", "make_or_buy", "material", "mass_each_kg", "mass_total_kg"),
@@ -185,11 +187,18 @@ def test_the_written_bill_is_the_same_twice(paper, tmp_path):
     assert len(shas) == 1
 
 
-def test_torques_in_the_bill_are_those_of_the_joints_that_are_judged(paper, rows):
-    stiff = dataclasses.replace(resolve(paper), stiff=True)
-    by_screw = {joint.screw: joint.clamping.torque for joint in screw_joints(stiff)}
+def test_bill_sheet_and_verdict_state_one_torque_of_a_screw(paper, rows):
+    # They said 2.3, 2.28 and 2.2 N m of one screw.
+    machine = dataclasses.replace(resolve(paper), stiff=True)
+    joint = next(one for one in screw_joints(machine) if one.place.startswith("cover"))
+    told = f"{float(f'{joint.clamping.torque:.3g}'):g}"
+    assert len(told.replace(".", "")) == 3
     (row,) = (row for row in rows if row["part"] == "cover screw")
-    assert row["fitting"].startswith(f"tighten to {by_screw[row['designation']]:.2g} N m")
+    assert row["fitting"].startswith(f"tighten to {told} N m")
+    preload = next(line for line in screw_lines(machine) if line.id == "SCREW-PRELOAD")
+    assert f"{joint.screw} at {told} N*m" in preload.substituted
+    torques = {place: torque for place, _, torque in AssemblyFacts(machine).torques()}
+    assert torques[joint.place] == told
 
 
 def test_substitutes_of_bearings_are_no_smaller_and_no_weaker(rows):

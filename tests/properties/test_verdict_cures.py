@@ -22,6 +22,7 @@ from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.body_analysis import analyse_bodies, judged_bodies, stress_under
 from cqdd_design.machine.carrying import torque_limits
 from cqdd_design.machine.cures import torques_that_hold
+from cqdd_design.machine.screws import screw_joints
 from cqdd_design.machine.temperatures import enough_cooling, judged_temperatures
 from cqdd_design.results import Check
 from cqdd_design.verdict.creep_lines import creep_lines
@@ -165,6 +166,39 @@ def test_what_no_torque_cures_lets_none_through(paper):
     torque, basis = standing_torque(evidence, [line], 50.0)
     assert torque == 0.0
     assert "at no torque" in basis
+
+
+OUTSIDE = {
+    "requirements.peak_torque": 20.0,
+    "requirements.continuous_torque": 5.0,
+    "requirements.external_moment": 900.0,
+    "requirements.external_axial": 300.0,
+}
+
+
+def test_screws_hold_at_the_external_loads_that_they_name(paper):
+    slip = screw_lines(resolve(paper.replacing(OUTSIDE)))[0]
+    assert (slip.id, slip.status) == ("SCREW-SLIP", "fail")
+    told = dict(re.findall(r"(external_\w+) to ([\d.]+)", slip.remedy))
+    assert set(told) == {"external_moment", "external_axial"}
+    for more, status in ((1.0, "pass"), (1.05, "fail")):
+        lower = {f"requirements.{key}": more * float(one) for key, one in told.items()}
+        assert screw_lines(resolve(paper.replacing(OUTSIDE | lower)))[0].status == status, more
+
+
+def test_bolts_that_yield_themselves_ask_for_no_stronger_housing(paper):
+    def output(changes):
+        joints = screw_joints(resolve(paper.replacing(OUTSIDE | changes)))
+        return next(one for one in joints if one.place == "output's face")
+
+    joint = output({})
+    assert joint.clamping.screw_yields
+    assert joint.cure.startswith("raise output_pins.circle_radius")
+    wider = paper.reducer.output_pins.circle_radius + 5e-4
+    assert output({"reducer.output_pins.circle_radius": wider}).slip_safety > joint.slip_safety
+    soft = output({"housing.material": "PC-CF FDM along layers"})
+    assert not soft.clamping.screw_yields
+    assert soft.cure == "take a stronger housing.material"
 
 
 def test_shaft_that_tires_under_a_duty_speaks_of_the_duty(paper):

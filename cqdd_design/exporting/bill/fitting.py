@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from cqdd_design.catalog.adhesives import ROTOR_COMPOUND
 from cqdd_design.catalog.bearings import find_bearing
+from cqdd_design.catalog.tightening import torque_words
 from cqdd_design.exporting.bill.known import catalogue_designations
 from cqdd_design.machine.screws import tightening_torques
 from cqdd_design.machine.sealing import bearing_seals
@@ -28,7 +29,7 @@ def fitting_notes(machine: Machine) -> dict[str, str]:
     notes = {**_bearings(machine, parts), **_needles(parts), **_motor(machine)}
     for name, torque in tightening_torques(machine).items():
         if name in parts:
-            notes[name] = f"tighten to {torque:.2g} N m, thread and head lightly oiled"
+            notes[name] = f"tighten to {torque_words(torque)} N m, thread and head lightly oiled"
     notes["encoder screw"] = "holds the board alone; tighten by hand"
     carrier = layout.carrier
     if carrier.bonded_in_cap and carrier.pin.screw is not None:

@@ -6,6 +6,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from cqdd_design.catalog import bearings
+from cqdd_design.catalog.tightening import torque_words
 from cqdd_design.exporting.bill.consumables import consumables
 from cqdd_design.exporting.bill.substitutes import ordered_as
 from cqdd_design.exporting.sheets.wording import joint_note
@@ -71,7 +72,7 @@ class AssemblyFacts:
             (
                 one.place,
                 f"{one.count} \u00d7 {one.screw}",
-                f"{one.clamping.torque:.3g}",
+                torque_words(one.clamping.torque),
             )
             for one in tightened_screws(self.machine)
         ]

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from cqdd_design.catalog.materials import Material, materials
 from cqdd_design.catalog.screws import shoulder_screws
 from cqdd_design.design.reducer import Reducer
-from cqdd_design.design.requirements import Requirements
+from cqdd_design.design.requirements import EXTERNAL_LOADS, Requirements
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.allowables import Allowable
 from cqdd_design.gearbox.checks.state import GearboxState
@@ -37,6 +37,13 @@ Lower = Callable[[float], str]
 def torque_words(value: float) -> str:
     """A torque as a remedy names it, rounded to the safe side."""
     return f"{rounded_down(value):g} N*m"
+
+
+def lower_outside(asked: Requirements, share: float) -> str:
+    """A share of the external loads that are asked for, each rounded to the safe side."""
+    stated = [(key, getattr(asked, key), unit) for key, unit in EXTERNAL_LOADS.items()]
+    told = [f"{key} to {rounded_down(share * one):g} {unit}" for key, one, unit in stated if one]
+    return f"lower {' and '.join(told)}"
 
 
 def lower_to(torque: float, which: str = "torque") -> str:
