@@ -101,6 +101,7 @@ def test_symbols_are_told_from_names() -> None:
         )
 
     assert set_as("R_w sin(\u03c6), F^0.9/b^0.8") == ("R[sub w] sin(\u03c6), F[sup 0.9]/b[sup 0.8]")
+    assert set_as("N_w(n+1)") == "N[sub w](n+1)"
     assert set_as("E*_1, W^-0.13, d^(2/3).") == "E*[sub 1], W[sup \u22120.13], d[sup 2/3]."
     for name in ("peak_torque", "x_position_m", "a/b_c.toml", "file_a"):
         assert set_as(name) == name
