@@ -44,11 +44,25 @@ class Finding:
         Present; missing and needed; missing and not needed for the main road.
     detail : str
         Version or place, or what to do.
+    extra : str
+        Extra of the package that brings what is optional; empty where none does.
     """
 
     name: str
     state: Literal["ok", "missing", "optional"]
     detail: str
+    extra: str = ""
+
+
+EXTRAS = {
+    "torque": "torque networks",
+    "sim": "MuJoCo",
+    "sweep": "clusters and sensitivities",
+    "parquet": "Parquet files",
+    "docs": "building the site",
+    "dev": "tests and development",
+}
+"""What each extra of the package is for."""
 
 
 @dataclass(frozen=True)
@@ -202,8 +216,8 @@ def _each_once(wanted: Iterable[_Wanted]) -> list[_Wanted]:
     for one in wanted:
         other = kept.get(one.distribution, one)
         least = max(one.least, other.least, key=_numbers)
-        # The main road needs what no extra names.
-        extra = other.extra if one.extra else ""
+        # The main road needs what no extra names; who runs no tests wants the smaller extra.
+        extra = min(other.extra, one.extra, key=lambda name: (name != "", name == "dev"))
         kept[one.distribution] = _Wanted(one.distribution, least, extra)
     return list(kept.values())
 
@@ -221,7 +235,7 @@ def _package(wanted: _Wanted) -> Finding:
     has = "is not installed" if found is None else f"is {found}, at least {wanted.least} is needed"
     if wanted.extra:
         fix = f"{has}; for the extra: pip install 'cqdd-design[{wanted.extra}]'"
-        return Finding(wanted.distribution, "optional", fix)
+        return Finding(wanted.distribution, "optional", fix, wanted.extra)
     fix = f"{has}; run pip install '{wanted.distribution}>={wanted.least}'"
     return Finding(wanted.distribution, "missing", fix)
 

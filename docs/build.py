@@ -111,6 +111,7 @@ def _calibrated() -> str:
     import measured
 
     from cqdd_design.actuator.bench.unknowns import UNKNOWNS
+    from cqdd_design.report.ink.numbers import pretty_unit
 
     found = measured.papers_fit()
     head = [
@@ -120,10 +121,10 @@ def _calibrated() -> str:
     rows = []
     for row in found.rows:
         measured = "" if row.measured is None else f"{row.measured:.4g}"
-        off = "" if row.off is None else f"{100.0 * row.off:+.0f} %"
+        off = "" if row.off is None else f"{round(100.0 * row.off):+d}\u202f%"
         before, after = ("\u2013" if v is None else f"{v:.3g}" for v in (row.before, row.after))
         rows.append(
-            f"| `{row.name}` | {row.unit} | {measured} | {before} | {after} "
+            f"| `{row.name}` | {pretty_unit(row.unit)} | {measured} | {before} | {after} "
             f"| {off} | {row.relation} |"
         )
     factors = ", ".join(

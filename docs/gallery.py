@@ -16,6 +16,8 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from cqdd_design.report.ink.numbers import pretty_unit
+
 if TYPE_CHECKING:
     from cqdd_design.library.judging import Checked
 
@@ -165,7 +167,7 @@ def _entry(shown: Shown) -> str:
     """A design of the page."""
     judged = shown.judged()
     figures = [
-        f"| {one.title} | {_value(one.value)} | {_value(one.required)} | {one.unit} "
+        f"| {one.title} | {_value(one.value)} | {_value(one.required)} | {pretty_unit(one.unit)} "
         f"| {one.status} |"
         for one in judged.verdict.headline
     ]

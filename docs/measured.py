@@ -36,6 +36,7 @@ from cqdd_design.catalog.paper import METRICS as PAPER
 from cqdd_design.design import load_design
 from cqdd_design.errors import ContactError
 from cqdd_design.machine import Machine, resolve
+from cqdd_design.report.ink.numbers import pretty_unit
 from cqdd_design.torque.data.log_files import read_columns
 
 DOCS = Path(__file__).resolve().parent
@@ -151,7 +152,7 @@ def predicted_friction(material: str) -> FrictionLine:
 
 
 def _off(ours: float, theirs: float) -> str:
-    return f"{100.0 * (ours / theirs - 1.0):+.0f} %"
+    return f"{round(100.0 * (ours / theirs - 1.0)):+d}\u202f%"
 
 
 def _or_none(value: float, digits: str) -> str:
@@ -348,7 +349,7 @@ def paper_table() -> str:
     for row in found.rows:
         if row.measured is None:
             continue
-        cells = [f"`{row.name}`", row.unit, f"{row.measured:.4g}"]
+        cells = [f"`{row.name}`", pretty_unit(row.unit), f"{row.measured:.4g}"]
         unfitted = (row.before, films.value(row.name))
         for value in (*unfitted, row.after):
             known = value is not None and math.isfinite(value)

@@ -2,6 +2,7 @@
 
 * Equations as MathML, which browsers draw without a script, screen readers read, and the report has
   too. The converter is docutils' own, so that no package more is needed.
+* Indices and powers of running text set as such: ``R_w`` and ``F^0.9``, as Markdown has them.
 * Pages whose text stands elsewhere in the repository, and links that lead out of `docs/`.
 * Contents whose captions have a level.
 * Files of the gallery's designs, where `tools/site.py` has exported them.
@@ -31,6 +32,11 @@ ELSEWHERE = {
 """Pages to the file of the repository that has their text."""
 EXPORTED = DOCS / "gallery" / "files"
 
+_SUNK = re.compile(
+    r"(?<![\w/.])(?P<base>[^\W\d_]['*]?)_(?P<low>[^\W_]+)(?!\w)"
+    r"|\^(?:\((?P<share>-?[\w./]+)\)|(?P<high>-?\w+(?:\.\d+)?))"
+)
+_AS_IT_IS = (nodes.literal, nodes.FixedTextElement, nodes.math, nodes.raw, nodes.title)
 _LINK = re.compile(r"\]\((?!https?://|#)([^)#\s]+)(#[^)\s]*)?\)")
 
 
@@ -49,6 +55,31 @@ def block(writer: HTML5Translator, node: nodes.math_block) -> None:
 
 def _left(_: HTML5Translator, __: nodes.Element) -> None:
     """Never reached: entering has written the whole formula."""
+
+
+def set_symbols(app: Sphinx, tree: nodes.document) -> None:
+    """Indices below and powers above the line, in text that is no code."""
+    if app.env.docname == "api":
+        return
+    for text in list(tree.findall(nodes.Text)):
+        place: Any = text
+        while place is not None and not isinstance(place, _AS_IT_IS):
+            place = place.parent
+        if place is None and _SUNK.search(text):
+            text.parent.replace(text, symbols(text))
+
+
+def symbols(text: str) -> list[nodes.Node]:
+    """Text with its indices and powers as nodes of their own."""
+    found: list[nodes.Node] = []
+    at = 0
+    for one in _SUNK.finditer(text):
+        found.append(nodes.Text(text[at : one.start()] + (one["base"] or "")))
+        kind = nodes.subscript if one["low"] else nodes.superscript
+        words = one["low"] or one["share"] or one["high"]
+        found.append(kind(words, words.replace("-", "\u2212")))
+        at = one.end()
+    return [*found, nodes.Text(text[at:])]
 
 
 def page_source(_: Sphinx, name: str, text: list[str]) -> None:
@@ -91,6 +122,7 @@ def setup(app: Sphinx) -> dict[str, bool]:
     app.add_html_math_renderer("mathml", (inline, _left), (block, _left))
     app.add_lexer("csv", TextLexer)
     app.connect("source-read", page_source)
+    app.connect("doctree-read", set_symbols)
     # After the theme has drawn its tree.
     app.connect("html-page-context", captions, priority=900)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

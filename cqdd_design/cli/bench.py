@@ -115,7 +115,7 @@ def _lines(result: BenchResult) -> list[str]:
         paper = result.paper(metric.name)
         if paper is not None:
             told_off = metric.known is not None and metric.relation != "not comparable"
-            off = f"{100.0 * (metric.value / paper - 1.0):+.1f}" if told_off else ""
+            off = f"{round(100.0 * (metric.value / paper - 1.0), 1) + 0.0:+.1f}" if told_off else ""
             row += [number(paper), off]
         elif result.beside_paper:
             row += ["", ""]

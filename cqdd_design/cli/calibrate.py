@@ -111,7 +111,7 @@ def _lines(found: Calibration) -> list[str]:
                 "" if row.measured is None else number(row.measured),
                 "-" if row.before is None else number(row.before),
                 "-" if row.after is None else number(row.after),
-                "" if row.off is None else f"{100.0 * row.off:+.1f}",
+                "" if row.off is None else f"{round(100.0 * row.off, 1) + 0.0:+.1f}",
                 row.relation,
             ]
         )

@@ -40,6 +40,13 @@ class Design(FrozenModel):
     Attribute names are the keys of the file; every quantity is an SI float, so
     ``design.reducer.eccentricity`` is in metres. Keys that the file left out hold their defaults
     and are listed by `assumed`.
+
+    Examples
+    --------
+    >>> import cqdd_design as cq
+    >>> design = cq.load("cqdd-10")
+    >>> design.reducer.ring_pitch_radius, design.requirements.peak_torque  # m, N m
+    (0.032, 120.0)
     """
 
     schema_version: Literal[1] = SCHEMA_VERSION

@@ -108,6 +108,13 @@ class Requirements(FrozenModel):
 
     Only `ratio` has no default. Torques are at the output, speed at the input. What is None is not
     asked for: it is not judged, and not written to files.
+
+    Examples
+    --------
+    >>> from cqdd_design import Requirements
+    >>> asked = Requirements(ratio=10, peak_torque="30 N*m", backlash="6 arcmin")
+    >>> asked.peak_torque, round(asked.backlash, 6), asked.stiffness  # N m, rad
+    (30.0, 0.001745, None)
     """
 
     ratio: Ratio

@@ -25,6 +25,8 @@ def design_schema() -> dict[str, Any]:
     """
     schema = Design.model_json_schema()
     for table in (schema, *schema["$defs"].values()):
+        # Examples of the docstring are Python, which no editor of a design file wants.
+        table["description"] = table.get("description", "").partition("\n\nExamples")[0]
         table["required"] = [
             key for key in table.get("required", ()) if key not in DERIVED_DEFAULTS
         ]

@@ -23,6 +23,11 @@ Row = Mapping[str, object]
 
 _PAGE_HEIGHT = 640
 """Of a result in a notebook, px; what is longer scrolls."""
+_FITTED = (
+    "this.style.height=Math.min(this.contentDocument.documentElement.scrollHeight+8,"
+    f"{2 * _PAGE_HEIGHT})+'px'"
+)
+"""As high as what is in it, up to twice that; where a notebook runs no scripts it scrolls."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -107,7 +112,7 @@ class Result:
         page = notebook_page(self.design, self.verdict, self._told(), self._sections())
         return (
             f'<iframe srcdoc="{html.escape(page)}" title="{html.escape(self.design.name)}" '
-            f'style="width:100%;height:{_PAGE_HEIGHT}px;border:0"></iframe>'
+            f'style="width:100%;height:{_PAGE_HEIGHT}px;border:0" onload="{_FITTED}"></iframe>'
         )
 
     def _told(self) -> str:

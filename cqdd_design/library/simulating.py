@@ -93,11 +93,11 @@ def simulate(
     ----------
     design : Design or path
         A path is that of a design file; a bare name may be an example's.
-    load : str
+    load : {"free", "locked", "inertia", "driven", "pendulum", "wall"}
         What the output carries.
-    command : str
+    command : {"torque", "current", "voltage", "impedance", "position", "open"}
         What the drive is told; ``"open"``: no current.
-    signal : str, optional
+    signal : {"constant", "sine", "chirp", "ramp", "file"}, optional
         Of the command over time; default what the other arguments say, or constant.
     duration : quantity, optional
         Default 5 s; of a reference file, its last time.

@@ -85,6 +85,14 @@ class Machine:
         swept at few torques: a look at what the machine does.
     duty_share : float
         Of the torques of its duty, or of the continuous one, that `life` is of.
+
+    Examples
+    --------
+    >>> import cqdd_design as cq
+    >>> from cqdd_design.machine import resolve
+    >>> machine = resolve(cq.load("cqdd-10"))
+    >>> machine.cam.designation, machine.motor.name
+    ('6902', 'CubeMars RO100 Lite KV55')
     """
 
     given: Design

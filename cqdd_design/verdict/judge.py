@@ -35,6 +35,11 @@ class Verdict:
         Every requirement and check.
     evidence : Evidence
         What they were made of.
+
+    Notes
+    -----
+    `cqdd_design.check` gives it: `meets` is "yes", "no" or "unknown", `headline` the seven figures,
+    `sentence` the answer in words.
     """
 
     name: str

@@ -31,6 +31,40 @@ def console_commands(page: Path) -> list[str]:
     return [line[2:] for line in lines if line.startswith("$ ")]
 
 
+def paragraphs(page: Path) -> list[str]:
+    """Running text: no code, tables or directives."""
+    text = re.sub(r"```.*?```", "\n\n", page.read_text(encoding="utf-8"), flags=re.DOTALL)
+    found = re.split(r"\n\s*\n|\n(?=\s*[-*] |\s*\d+\. )", text)
+    return [one.strip() for one in found if not one.strip().startswith(("|", "<", "#", ":"))]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_no_paragraph_is_a_wall(page):
+    """A reader who looks for one thing does not go through a screen of others."""
+    assert [one[:60] for one in paragraphs(page) if len(one) > 1300] == []
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_links_are_words(page):
+    """The site has no `.md`: a link named by its file names nothing there."""
+    text = page.read_text(encoding="utf-8")
+    kept = [] if "; the site has it here." in text else re.findall(r"\[[\w./-]+\.md\]\(", text)
+    assert kept == []
+
+
+def test_the_picture_of_a_report_shows_what_the_gallery_has():
+    """It says of itself what it shows: the first tutorial's design, judged by today's code."""
+    picture = (REPOSITORY / "docs" / "images" / "report.png").read_bytes()
+    told = re.search(rb"tEXtDescription\x00([\x20-\x7e]+?; [\d., ]+)", picture)[1].decode()
+    verdict, _, figures = told.partition("; ")
+    gallery = (REPOSITORY / "docs" / "gallery.md").read_text(encoding="utf-8")
+    plain = gallery.split("\n## ")[1]
+    assert "plain-10" in plain
+    assert f"requirements: {verdict}." in plain
+    rows = re.findall(r"(?m)^\| [^|]+ \| ([\d.]+) \| [^|]+ \| [^|]* \| pass \|$", plain)
+    assert figures.split(", ") == rows
+
+
 @pytest.fixture(scope="module")
 def shown_before():
     return set()

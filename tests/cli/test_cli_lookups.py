@@ -3,9 +3,14 @@
 import json
 import re
 import tomllib
+from pathlib import Path
 
 import jsonschema
 import pytest
+
+from cqdd_design.environment import EXTRAS
+
+REPOSITORY = Path(__file__).resolve().parents[2]
 
 MINIMAL = {
     "ratio": 10,
@@ -186,7 +191,39 @@ def test_doctor_says_each_thing_once(cqdd):
     shown = [
         re.split(r"  +", line)[1] for line in told.out.splitlines() if re.match(r"\w+  ", line)
     ]
-    assert sorted(shown) == sorted(names)
+    brought = {
+        row["name"]
+        for row in done.document["results"]["findings"]
+        if row["state"] == "optional" and "for the extra" in row["detail"]
+    }
+    assert sorted(set(shown) - set(EXTRAS)) == sorted(set(names) - brought)
+    assert len(shown) == len(set(shown))
+    assert all(re.search(rf"[ ,]{re.escape(name)}(,|\n)", told.out) for name in brought)
+
+
+def test_doctor_tells_packages_of_an_extra_together(capsys):
+    """Forty lines of packages for tests hid the one that matters."""
+    from cqdd_design.cli.doctor import _rows
+    from cqdd_design.environment import Finding
+
+    found = [
+        Finding("numpy", "ok", "2.0"),
+        Finding("torch", "optional", "is not installed", "torque"),
+        Finding("onnx", "optional", "is not installed", "torque"),
+    ]
+    assert list(_rows(found)) == [
+        ["ok", "numpy", "2.0"],
+        [
+            "optional",
+            "torque",
+            "for torque networks: pip install 'cqdd-design[torque]' brings torch, onnx",
+        ],
+    ]
+
+
+def test_every_extra_says_what_it_is_for():
+    project = tomllib.loads((REPOSITORY / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    assert set(EXTRAS) == set(project["optional-dependencies"])
 
 
 def test_doctor_takes_the_strictest_of_several_wishes():
@@ -195,6 +232,9 @@ def test_doctor_takes_the_strictest_of_several_wishes():
     wishes = [_Wanted("a", "1.9", "torque"), _Wanted("a", "1.10", ""), _Wanted("b", "2", "dev")]
     assert _each_once(wishes) == [_Wanted("a", "1.10", ""), _Wanted("b", "2", "dev")]
     assert _each_once(reversed(wishes))[1] == _Wanted("a", "1.10", "")
+    # Who runs no tests is told of the smaller extra.
+    mujoco = [_Wanted("mujoco", "4.0", "dev"), _Wanted("mujoco", "4.0", "sim")]
+    assert _each_once(mujoco) == _each_once(mujoco[::-1]) == [_Wanted("mujoco", "4.0", "sim")]
 
 
 def test_doctor_names_what_is_missing(monkeypatch, tmp_path):

@@ -11,8 +11,10 @@ from typing import Any
 import numpy as np
 import pytest
 from page_readers import axe_source, read
+from report_browser import findings
 from shared_outputs import paper_bench, paper_input
 
+import cqdd_design as cq
 from cqdd_design.machine.contact_analysis import analyse_contact
 from cqdd_design.report import build_report
 from cqdd_design.report.torque.page import torque_page
@@ -196,6 +198,20 @@ def test_units_go_to_inches_and_back(readers: dict[str, Any]) -> None:
             if cell.endswith("\u202fg") and cell.split("\u202f")[0].replace(".", "").isdigit():
                 grams, ounces = float(cell.split("\u202f")[0]), float(new.split("\u202f")[0])
                 assert ounces == pytest.approx(grams / 28.349523, rel=5e-3)
+
+
+def test_a_result_in_a_notebook_is_seen_whole(tmp_path: Path) -> None:
+    """Verdict and drawing in one look: a frame of one height cut the drawing in half."""
+    sized = cq.size(10, peak_torque="30 N*m", quick=True)
+    heights = """<script>window.addEventListener("load", function () { setTimeout(function () {
+      var frame = document.querySelector("iframe");
+      var page = frame.contentDocument, drawing = page.querySelector("figure");
+      postFindings({ frame: frame.getBoundingClientRect().height, page: page.body.scrollHeight,
+        drawing: drawing.getBoundingClientRect().bottom }); }, 200); });</script>"""
+    shown = f"<html><head></head><body>{sized._repr_html_()}{heights}</body></html>"
+    found = findings(shown, tmp_path, "--window-size=1000,800")
+    assert found["drawing"] <= found["frame"] <= 1280.0
+    assert found["page"] <= found["frame"] or found["frame"] == 1280.0
 
 
 def test_nought_on_the_torque_page_has_no_sign() -> None:

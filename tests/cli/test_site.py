@@ -30,14 +30,18 @@ _LOOKS = """<script>new MutationObserver(function () {
 }).observe(document.documentElement, { attributes: true });</script>"""
 
 
-@pytest.fixture(scope="module")
-def checker() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("site_tool", REPOSITORY / "tools" / "site.py")
+def _module(name: str, place: Path) -> ModuleType:
+    spec = importlib.util.spec_from_file_location(name, place)
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
+
+
+@pytest.fixture(scope="module")
+def checker() -> ModuleType:
+    return _module("site_tool", REPOSITORY / "tools" / "site.py")
 
 
 @pytest.fixture(scope="module")
@@ -72,6 +76,35 @@ def test_every_page_and_every_file_of_the_gallery_is_there(site: Path) -> None:
     # Equations are drawn by the browser itself, and the changelog is that of the repository.
     assert "<mfrac>" in (site / "theory.html").read_text(encoding="utf-8")
     assert "Keep a Changelog" in (site / "changelog.html").read_text(encoding="utf-8")
+
+
+@pytest.mark.deep
+def test_indices_and_powers_are_set(site: Path) -> None:
+    for page in DOCS.glob("*.md"):
+        text = (site / f"{page.stem}.html").read_text(encoding="utf-8")
+        text = text[text.index("<article") : text.index("</article>")]
+        text = re.sub(r"(?s)<(pre|code|math|style|h\d|dl)\b.*?</\1>", "", text)
+        words = re.sub(r"<[^>]+>", " ", text)
+        assert re.findall(r"(?<![\w/.])[^\W\d_]_[A-Za-z]+\b(?!_)", words) == [], page.name
+    theory = (site / "theory.html").read_text(encoding="utf-8")
+    assert "Z<sub>R</sub>" in theory
+
+
+def test_symbols_are_told_from_names() -> None:
+    pytest.importorskip("docutils")
+    site_parts = _module("site_parts", DOCS / "site_parts.py")
+
+    def set_as(text: str) -> str:
+        return "".join(
+            one.astext() if one.tagname == "#text" else f"[{one.tagname[:3]} {one.astext()}]"
+            for one in site_parts.symbols(text)
+        )
+
+    assert set_as("R_w sin(\u03c6), F^0.9/b^0.8") == ("R[sub w] sin(\u03c6), F[sup 0.9]/b[sup 0.8]")
+    assert set_as("N_w(n+1)") == "N[sub w](n+1)"
+    assert set_as("E*_1, W^-0.13, d^(2/3).") == "E*[sub 1], W[sup \u22120.13], d[sup 2/3]."
+    for name in ("peak_torque", "x_position_m", "a/b_c.toml", "file_a"):
+        assert set_as(name) == name
 
 
 @pytest.mark.deep
