@@ -71,7 +71,7 @@ ROWS = (
     ),
     CheckGuide(
         "HOUSING-CREEP",
-        "Strain of plastic housing, covers and carrier, continuous torque held",
+        "Strain of plastic housing, covers and carrier, continuous torque or duty held",
         "%",
         "max",
         f"|sigma|/E_c <= {100.0 * DESIGN_STRAIN:g} %, sigma the greatest nominal stress of seats, "
