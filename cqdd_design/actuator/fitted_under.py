@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
-_AT_VOLTAGE = (
+AT_VOLTAGE = (
     "no_load_speed",
     "efficiency_peak",
     "position_bandwidth_45deg",
@@ -59,7 +59,7 @@ class FittedUnder(NamedTuple):
     def _differences(self, row: str, here: FittedUnder) -> Iterator[str]:
         if self.other:
             yield f"fitted to {self.other}"
-        if row in _AT_VOLTAGE and self.voltage != here.voltage:
+        if row in AT_VOLTAGE and self.voltage != here.voltage:
             yield f"fitted at {self.voltage:g} V, measured here at {here.voltage:g} V"
         if self.ambient != here.ambient:
             yield f"fitted in air of {self.ambient:g} degC, here {here.ambient:g} degC"

@@ -65,7 +65,7 @@ def _analysed(
     model = machine.contact if usual else machine.contact_by(line_model)
     asked = design.requirements
     peak = asked.peak_torque if torque is None else torque
-    steady = machine.duty_share * asked.lasting_torque if torque is None else torque
+    steady = machine.lasting_torque if torque is None else torque
     # Fewer columns than pins: several of these periods until a place has met all of its forces.
     periods = round(model.period / mesh_period(model.lobe_count, model.pin_count))
     states = nominal_states(model, perfect_angles(model, periods * _ANGLES))

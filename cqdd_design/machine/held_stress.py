@@ -104,7 +104,7 @@ def held_loads(machine: Machine) -> HeldLoads:
     GeometryError
         When the machine cannot be laid out.
     """
-    model, torque = machine.contact, machine.design.requirements.continuous_torque
+    model, torque = machine.contact, machine.lasting_torque
     rubbed, angles = ContactFriction.of(model, "drive"), perfect_angles(model, _ANGLES)
     sweeps = [contact_sweep(model, one, angles, friction=rubbed) for one in (torque, -torque)]
     pack, layout = PackLoads.of(sweeps), machine.layout
@@ -169,7 +169,7 @@ def _housing(machine: Machine, held: HeldLoads) -> Iterator[HeldStress]:
     bent = stress.tilted_plate_stress(housing.boss_radius, pack.ledge_radius, thick, moment)
     yield HeldStress("housing", "floor about its boss", bent, f"{moment:.3g} N*m tilt it")
 
-    torque = machine.design.requirements.continuous_torque + held.crank_torque
+    torque = machine.lasting_torque + held.crank_torque
     dowels = layout.dowels
     if dowels.radius:
         size = 2.0 * dowels.radius
@@ -270,7 +270,7 @@ def _plate(machine: Machine, held: HeldLoads) -> Iterator[HeldStress]:
     )
     yield HeldStress(part, "thread of the bearing's nut", sheared, told)
 
-    torque, dowels = design.requirements.continuous_torque, carrier.flange_dowels
+    torque, dowels = machine.lasting_torque, carrier.flange_dowels
     circle = carrier.bolt_circle_radius
     if dowels.count:
         found = across_a_joint(torque, dowels.count, circle, dowels.diameter, dowels.depth)

@@ -190,6 +190,11 @@ class Machine:
         return other
 
     @property
+    def lasting_torque(self) -> float:
+        """Greatest torque of the duty, or the continuous one, by `duty_share`, N m."""
+        return self.duty_share * self.design.requirements.lasting_torque
+
+    @property
     def cooling(self) -> Cooling:
         """From winding to ambient, as the design's drive or its motor's data state it."""
         stated = self.design.drive.thermal_resistance

@@ -9,7 +9,7 @@ from cqdd_design.catalog.materials import DESIGN_STRAIN, Material, find_material
 from cqdd_design.errors import CatalogError, ContactError, GeometryError
 from cqdd_design.gearbox.checks.allowables import SLIP_SAFETY
 from cqdd_design.gearbox.checks.equilibrium import lasting_checks, lower_duty
-from cqdd_design.gearbox.checks.remedies import lower_to
+from cqdd_design.gearbox.checks.remedies import lower_shares, lower_to
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.machine import Machine
 from cqdd_design.machine.cures import ROUGHLY, SEARCHED_CASES, torques_that_hold
@@ -87,19 +87,23 @@ def _pins(plastic: Material, lines: Iterable[Check]) -> Check:
 
 
 def _housing_cured(machine: Machine, plastic: Material) -> Check:
-    """With the continuous torque at which the places would hold, where there is one."""
+    """With the continuous torque, or share of a duty, at which all hold, where there is one."""
     line, asked = _housing(machine, plastic), machine.design.requirements
     if line.status != "fail" or plastic.creep_modulus is None:
         return line
     cures = torques_that_hold(
-        lambda torque: (_housing(machine.under(continuous=torque), plastic),),
-        asked.continuous_torque,
+        lambda share: (_housing(machine.under(duty_share=share), plastic),),
+        1.0,
         (line,),
         near=ROUGHLY,
     )
-    less = lower_to(cures[line.id], "continuous torque")
-    if not cures[line.id] and any(getattr(asked, one) for one in _EXTERNAL):
-        less = "lower the continuous torque and the external loads"
+    share, whose = cures[line.id], "torques of the duty"
+    less = lower_shares(share)
+    if not asked.load_cases:
+        whose = "continuous torque"
+        less = lower_to(share * asked.continuous_torque, whose)
+    if not share and any(getattr(asked, one) for one in _EXTERNAL):
+        less = f"lower the {whose} and the external loads"
     return replace(line, remedy=f"{line.remedy}, or {less}")
 
 

@@ -224,6 +224,16 @@ def test_rows_fitted_under_other_conditions_are_not_comparable(
     assert says in found.remark
 
 
+def test_the_papers_values_are_of_its_own_supply(actuator: ActuatorParameters) -> None:
+    for voltage, relation in ((24.0, "predicted"), (30.0, "not comparable")):
+        (speed,) = run_bench(
+            actuator, only=["no_load_speed"], voltage=voltage, beside_paper=True
+        ).metrics
+        assert speed.relation == relation
+    (alone,) = run_bench(actuator, only=["no_load_speed"], voltage=30.0).metrics
+    assert alone.relation == "predicted"
+
+
 def test_a_rig_of_its_own_matters_to_the_torque_bandwidth() -> None:
     on_rig = HERE._replace(rig_stiffness=8e3)
     assert (

@@ -24,6 +24,7 @@ from cqdd_design.machine.temperatures import MachineTemperatures
 from cqdd_design.results import Check
 from cqdd_design.verdict.asked import _shock
 from cqdd_design.verdict.cam_line import cam_line
+from cqdd_design.verdict.creep_lines import creep_lines
 from cqdd_design.verdict.joint_lines import joint_lines
 from cqdd_design.verdict.lines import _carried
 from cqdd_design.verdict.rubbing_lines import rubbing_lines
@@ -66,6 +67,10 @@ def carried(machine: Machine) -> tuple[Check, ...]:
 
 def joints(machine: Machine) -> tuple[Check, ...]:
     return joint_lines(machine, None)
+
+
+def creeping(machine: Machine) -> tuple[Check, ...]:
+    return creep_lines(machine, ())
 
 
 def loose(machine: Machine) -> tuple[Check, ...]:
@@ -144,6 +149,9 @@ def change_of(way: str, of: Design) -> dict[str, Any]:
          {f"{ASKED}peak_torque": 90.0, f"{ASKED}continuous_torque": 40.0}, 1.05),
         ("PIN-RUBBING", rubbing_lines, "reference-s", POM, 1.05),
         ("PIN-RUBBING", rubbing_lines, "reference-s", POM | {f"{ASKED}duty": DUTY}, 1.05),
+        ("HOUSING-CREEP", creeping, "reference-s", {"housing.material": "POM (acetal)"}, 1.05),
+        ("HOUSING-CREEP", creeping, "reference-s",
+         {"housing.material": "POM (acetal)", f"{ASKED}duty": DUTY}, 1.05),
         ("CAM-JOINT", loose, "three-discs-9", {f"{ASKED}peak_torque": 150.0}, 1.05),
         ("SUPPORT-LIFE", shaft_lines, "cqdd-10", {}, 1.05),
         ("OUTPUT-LIFE", shaft_lines, "reference-s",

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from cqdd_design.actuator.bench import bandwidth, gear, steady
 from cqdd_design.actuator.bench.metric import BenchResult, Metric, refuse_unmeasured
-from cqdd_design.actuator.fitted_under import FittedUnder
+from cqdd_design.actuator.fitted_under import AT_VOLTAGE, FittedUnder
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.catalog import paper
 from cqdd_design.errors import UsageError
@@ -121,7 +121,8 @@ def run_bench(
         if metric is None:
             warnings.append(f"{measurement(name)}: {_ABSENT[name]}.")
         else:
-            found.append(_related(metric, parameters, here))
+            related = _related(metric, parameters, here)
+            found.append(_beside(related, voltage) if beside_paper else related)
             if metric.missing:
                 warnings.append(f"{measurement(name)}: {metric.missing}.")
     hanging = [measurement(metric.name) for metric in found if metric.name in _OF_DRAG]
@@ -150,5 +151,14 @@ def _related(metric: Metric, parameters: ActuatorParameters, here: FittedUnder) 
     other = "" if under is None else under.differs(metric.name, here)
     if not other:
         return dataclasses.replace(metric, relation="calibrated")
+    remark = f"{metric.remark}; {other}" if metric.remark else other
+    return dataclasses.replace(metric, relation="not comparable", remark=remark)
+
+
+def _beside(metric: Metric, voltage: float) -> Metric:
+    """A measurement beside the paper's, which were made at its own supply."""
+    if metric.name not in AT_VOLTAGE or voltage == VOLTAGE:
+        return metric
+    other = f"the paper measured at {VOLTAGE:g} V"
     remark = f"{metric.remark}; {other}" if metric.remark else other
     return dataclasses.replace(metric, relation="not comparable", remark=remark)

@@ -35,7 +35,7 @@ _EDGES = tuple(
         ),
         CheckGuide(
             f"{part}-FATIGUE",
-            f"Reversed stress {where}, continuous torque",
+            f"Reversed stress {where}, continuous torque or duty",
             "MPa",
             "max",
             "sigma_a/(1 - sigma_m/S_u) <= S_e",
@@ -50,7 +50,7 @@ ROWS = (
     *_EDGES,
     CheckGuide(
         "PLASTIC-CREEP",
-        "Strain of plastic discs and ring, continuous torque held",
+        "Strain of plastic discs and ring, continuous torque or duty held",
         "%",
         "max",
         f"|sigma|/E_c <= {100.0 * DESIGN_STRAIN:g} %, E_c after 1000 h at 23 degC",
@@ -71,7 +71,7 @@ ROWS = (
     ),
     CheckGuide(
         "HOUSING-CREEP",
-        "Strain of plastic housing, covers and carrier, continuous torque held",
+        "Strain of plastic housing, covers and carrier, continuous torque or duty held",
         "%",
         "max",
         f"|sigma|/E_c <= {100.0 * DESIGN_STRAIN:g} %, sigma the greatest nominal stress of seats, "

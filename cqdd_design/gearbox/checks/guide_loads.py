@@ -121,7 +121,8 @@ ROWS = (
         "p v <= what the plastic bears dry on steel, p = mean F/(d b), v = e (1 + 1/n) omega; of "
         "plain sleeves that on their pin",
         "Above it the surface softens and wears away within hours. Judged at the continuous torque "
-        "and its speed where a disc, pin or sleeve of plastic slides; needles roll.",
+        "and its speed, under a duty at its step of the most power, where a disc, pin or "
+        "sleeve of plastic slides; needles roll.",
         "maker's handbook, named with the limit (`cqdd-design catalog rubbing`)",
         basis="contact equilibrium of perfect parts, driving with friction",
     ),
