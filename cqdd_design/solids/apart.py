@@ -107,10 +107,10 @@ def taken_apart(design: Design, parts: Sequence[Part]) -> tuple[tuple[Step, ...]
 
 
 def _bonds(things: Sequence[_Thing]) -> _Bonds:
-    """Rotor and stator of a motor with what carries them, if that is not the housing itself.
+    """Rotor and stator of a motor with what carries them, balance weights with their bell.
 
-    Balance weights go with the bell that they are bonded on, pins with the ring whose pockets they
-    stand in; these may leave it, but it does not leave them.
+    A stator goes with the housing that it is bonded on, pins with the ring in whose pockets they
+    stand; these may leave it, but it does not leave them.
     """
     bonds: _Bonds = {}
     for host in things:
@@ -121,10 +121,11 @@ def _bonds(things: Sequence[_Thing]) -> _Bonds:
                 continue
             for guest in things:
                 name = guest.station.part.name
-                bought = name.startswith("motor ") and host.station.part.name != "housing"
+                bought = name.startswith("motor ")
                 if name == joint.to and (bought or host.station.part.name in WEIGHTS):
                     bonds.setdefault(id(host), []).append(guest)
-                    bonds.setdefault(id(guest), []).append(host)
+                    if host.station.part.name != "housing":
+                        bonds.setdefault(id(guest), []).append(host)
     return bonds
 
 

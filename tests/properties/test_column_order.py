@@ -62,3 +62,19 @@ def test_output_pins_come_in_between_cap_and_plate() -> None:
     order = [step.moved[0].part.name for step in reversed(steps)]
     assert order.index("carrier cap") < order.index("disc 1") < order.index("dowel pin")
     assert order.index("dowel pin") == order.index("carrier plate") - 1
+
+
+@pytest.mark.parametrize("discs", [1, 2, 3])
+def test_a_stator_is_bonded_on_a_housing_that_is_there(discs: int) -> None:
+    # It lay loose in the bell before the housing, whose register it is bonded on.
+    paper = resolve(load_design(DESIGNS / "cqdd-10.toml"))
+    plain = {"reducer.output_pins.diameter": "3.5 mm"}
+    machine = paper.changed(plain | {"reducer.disc_count": discs})
+    steps, whole = taken_apart(machine.design, machine.parts)
+    assert whole
+    single = [step for step in reversed(steps) if not step.is_unit]
+    order = [step.moved[0].part.name for step in single]
+    stator = single[order.index("motor stator")]
+    assert stator.unit == "unit of the housing" or order.index("housing") < order.index(
+        "motor stator"
+    )
