@@ -135,7 +135,7 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
     most = lasting = ratio = None
     if less.found is not None:
         hunt.say("looking for more torque that still fits")
-        fits = _more_again(hunt, less.found).sizing.design.requirements
+        fits = _more_again(hunt, less.found, refusal).sizing.design.requirements
         most, lasting = fits.peak_torque, fits.continuous_torque
         ways.append(f"peak_torque {most:g} N*m with continuous_torque {lasting:g} N*m")
     if isinstance(refusal, MotorShortError):
@@ -224,7 +224,9 @@ def _less_torque(hunt: Hunt, refusal: SizingInfeasibleError) -> _Way:
     return _tried(hunt, asked.deriving(PEAK, CONTINUOUS))
 
 
-def _more_again(hunt: Hunt, found: VerifiedDesign) -> VerifiedDesign:
+def _more_again(
+    hunt: Hunt, found: VerifiedDesign, refusal: SizingInfeasibleError
+) -> VerifiedDesign:
     """A design for more than torques that were found to fit, until a little more does not.
 
     Torques that are lowered go down in strides, and a design that just fails is eased on and on;
@@ -232,6 +234,8 @@ def _more_again(hunt: Hunt, found: VerifiedDesign) -> VerifiedDesign:
     """
     asked = hunt.requirements
     too_much = {key: getattr(asked, key) for key in (PEAK, CONTINUOUS) if key not in asked.derived}
+    if isinstance(refusal, MotorShortError) and PEAK_LINE in refusal.binding:
+        too_much[PEAK] = asked.ratio * refusal.torque
     for _ in range(_RISES):
         fits = found.sizing.design.requirements
         tried = {key: _between(getattr(fits, key), most) for key, most in too_much.items()}

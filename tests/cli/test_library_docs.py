@@ -126,7 +126,7 @@ def test_pages_and_notebooks_ask_for_names_that_exist():
 
 def test_every_road_has_a_notebook_without_outputs():
     roads = {one.name for one in pkgutil.iter_modules(cqdd_design.roads.__path__)}
-    without = {"drawer", "kernels", "sized_file", "telling", "torque_data"}
+    without = {"drawer", "kernels", "places", "sized_file", "telling", "torque_data"}
     assert {book.stem for book in BOOKS} == roads - without
     index = (REPOSITORY / "examples" / "README.md").read_text(encoding="utf-8")
     for book in BOOKS:

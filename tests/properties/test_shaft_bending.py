@@ -320,7 +320,7 @@ def test_the_pages_have_these_figures() -> None:
     for words, key in ROWS.items():
         values = [one[key] for one in every]
         last = [value[-1] if isinstance(value, list) else value for value in values]
-        shown[key] = [f"{value:.3g}" for value in last]
+        shown[key] = [f"{float(f'{value:.3g}'):g}" for value in last]
         assert f"| {words} | {' | '.join(shown[key])} |" in page
     edges = [math.sqrt(float(value)) for value in shown["edge_load_factor"]]
     assert f"at most {edges[0]:.2f} to {edges[1]:.2f} of the one told" in page

@@ -45,7 +45,7 @@ def said(monkeypatch, bears, verdict, given=ASKED, first=("BEARING-STATIC",), le
         return answer
 
     monkeypatch.setattr(nearest, "searched", searched)
-    monkeypatch.setattr(nearest, "_more_again", lambda _, found: found)
+    monkeypatch.setattr(nearest, "_more_again", lambda _, found, refusal: found)
     monkeypatch.setattr(nearest, "both_bearable", lambda _: 1.0)
     sound = SimpleNamespace(worth=(False, 1.0))
     monkeypatch.setattr(
@@ -244,7 +244,7 @@ def test_torques_that_are_told_are_nearly_the_most(monkeypatch, bears, holds):
     monkeypatch.setattr(nearest, "_tried", way)
     hunt = new_hunt(asked, lambda _: None, None, None, "mass")
     low = found(peak_torque=15.0, continuous_torque=2.0)
-    most = nearest._more_again(hunt, low).sizing.design.requirements
+    most = nearest._more_again(hunt, low, refused("YIELD")).sizing.design.requirements
     assert 15.0 <= most.peak_torque <= bears
     assert 2.0 <= most.continuous_torque <= holds
     # One of both binds; strides are halved as often as is worth while.
@@ -254,7 +254,7 @@ def test_torques_that_are_told_are_nearly_the_most(monkeypatch, bears, holds):
     # A torque that nobody stated is no aim.
     free = replace(hunt, requirements=asked.deriving("continuous_torque"))
     tried.clear()
-    nearest._more_again(free, low)
+    nearest._more_again(free, low, refused("YIELD"))
     assert {lasting for _, lasting in tried} == {free.requirements.continuous_torque}
 
 

@@ -89,7 +89,7 @@ class Metric:
     def __post_init__(self) -> None:
         """Let nobody change a trace that is written and drawn."""
         seen = {name: read_only(values) for name, values in self.trace.items()}
-        object.__setattr__(self, "trace", MappingProxyType(seen))
+        object.__setattr__(self, "trace", seen)
 
     @property
     def known(self) -> float | None:
