@@ -227,10 +227,11 @@ def _less_torque(hunt: Hunt, refusal: SizingInfeasibleError) -> _Way:
 def _more_again(
     hunt: Hunt, found: VerifiedDesign, refusal: SizingInfeasibleError
 ) -> VerifiedDesign:
-    """A design for more than torques that were found to fit, until a little more does not.
+    """A design for more than torques that were found to fit, by a few searches between.
 
     Torques that are lowered go down in strides, and a design that just fails is eased on and on;
-    another may bear what lies between.
+    another may bear what lies between. What is told is no bound: close to it a search finds some
+    torques and not others.
     """
     asked = hunt.requirements
     too_much = {key: getattr(asked, key) for key in (PEAK, CONTINUOUS) if key not in asked.derived}
