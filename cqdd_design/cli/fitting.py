@@ -123,9 +123,20 @@ def _width_in(title: str, lines: int) -> int:
 
 
 def _longest_word(rows: Sequence[Sequence[str]], place: int) -> int:
-    """Of what a column holds; in names with the indent of lines that go on."""
-    longest = max((len(word) for row in rows for word in row[place].split()), default=0)
+    """Of what a column holds; in names with the indent of lines that go on.
+
+    Addresses of the last column are left out: they may stand over the edge, and no column is
+    out of line by it.
+    """
+    last = place == len(rows[0]) - 1
+    words = (word for row in rows for word in row[place].split() if not (last and _address(word)))
+    longest = max((len(word) for word in words), default=0)
     return longest if place else longest + 2
+
+
+def _address(word: str) -> bool:
+    """Whether a word is a folder, a file or a page."""
+    return word.count("/") + word.count("\\") > 1
 
 
 def wrapped(text: str, width: int, first: str, after: str) -> list[str]:

@@ -97,3 +97,15 @@ def test_every_line_of_the_guide_can_be_told():
     for guide in CHECK_GUIDE.values():
         for text in (guide.formula, guide.why, guide.source):
             assert too_wide(_paragraph("rule", text)) == []
+
+
+def test_a_long_address_leaves_columns_in_line():
+    """A deep project folder put each name of `doctor` on a line of its own."""
+    for folder in ("/home/somebody/robots/knee", "/home/somebody/projects/legged/" + 60 * "k"):
+        rows = [["ok", "Python", f"3.11.7 at {folder}/.venv/bin/python3"]]
+        rows += [["optional", "compiled kernels", "stand nowhere, as no folder can be written"]]
+        text = table(rows)
+        starts = [line.split("  ")[0] for line in text.splitlines() if re.match(r"\w+  ", line)]
+        assert starts == ["ok", "optional"]
+        assert f"{folder}/.venv/bin/python3" in text.split()
+        assert too_wide(text) == []
