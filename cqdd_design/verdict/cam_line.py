@@ -54,7 +54,7 @@ def _wall(machine: Machine) -> Check:
 def cam_line(machine: Machine, warm: MachineTemperatures | None) -> Check | None:
     """The bond of the loose cam at the peak torque; None for a machine that has no such cam.
 
-    The press fit is not counted: its zones may leave a play of 10 um.
+    The press fit is not counted: its zones may leave a play of 11 um.
 
     Parameters
     ----------

@@ -377,8 +377,8 @@ def test_the_sheet_of_a_loose_cam_says_when_it_is_ground(machine):
     cam = next(part for part in three.parts if part.name == "eccentric cam")
     (said,) = (one for one in part_sheet.notes(PartFacts(cam, three.given)) if "before" in one)
     assert "bonded over the whole bore with LOCTITE 648" in said
-    grown = 9.0 * 10.3 / 15.0
-    assert f"At most 9 \u00b5m of interference make it grow by {grown:.1f} \u00b5m" in said
+    grown = 5.0 * 10.3 / 15.0
+    assert f"At most 5 \u00b5m of interference make it grow by {grown:.1f} \u00b5m" in said
     order = AssemblyFacts(three).order()
     first = [one.split(",")[0] for one in order]
     assert first.index("eccentric shaft") > first.index("disc 2")

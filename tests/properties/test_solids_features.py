@@ -17,7 +17,7 @@ from cqdd_design.catalog.screws import pin_diameter_limits
 from cqdd_design.catalog.threads import tap_drill, thread_named, thread_size_of
 from cqdd_design.design import Design
 from cqdd_design.errors import CatalogError, GeometryError
-from cqdd_design.geometry.contours import Circle, Contour
+from cqdd_design.geometry.contours import Circle, Contour, PlanarPart
 from cqdd_design.solids.features.edges import edges
 from cqdd_design.solids.features.holes import FittedHole, TappedHole
 from cqdd_design.solids.features.kinds import (
@@ -35,7 +35,7 @@ from cqdd_design.solids.features.making import point_length
 from cqdd_design.solids.features.removal import cuts, drillings
 from cqdd_design.solids.features.revolved import Revolved
 from cqdd_design.solids.features.zones import PIN
-from cqdd_design.solids.layers import Annulus, turned
+from cqdd_design.solids.layers import Annulus, Layer, Stack, turned
 from cqdd_design.solids.part import Part
 from cqdd_design.solids.parts import build_parts
 from cqdd_design.solids.proportions import lay_out
@@ -102,6 +102,28 @@ def test_edges_are_where_turning_leaves_them() -> None:
     # A narrow face takes a narrow chamfer: 15 % of 8 mm is more than the 0.8 mm of its diameter.
     narrow = turned([Annulus(0.0, 0.01, 0.018, 0.02)])
     assert {one.width for one in edges(narrow)} == {0.3e-3}
+
+
+def test_a_chamfer_opens_no_blind_hole_under_its_face() -> None:
+    """A chamfer of 0.8 mm would reach 0.05 mm into holes whose ground is 0.25 mm under the face."""
+
+    def plate(floor: float) -> Stack:
+        outline = Circle(np.zeros(2), 12.85e-3)
+        pins = tuple(
+            Circle(10.35e-3 * np.array([math.cos(a), math.sin(a)]), 2e-3)
+            for a in np.linspace(0.0, 2.0 * math.pi, 9, endpoint=False)
+        )
+        drilled, whole = PlanarPart("plate", outline, pins), PlanarPart("plate", outline)
+        return Stack((Layer(drilled, 0.0, 6e-3), Layer(whole, 6e-3, 6e-3 + floor)))
+
+    def widths(floor: float) -> dict[str, float]:
+        return {str(one.facing): one.width for one in edges(plate(floor)) if not one.inside}
+
+    # 0.5 mm from the rim to the holes, where they come out below.
+    assert widths(0.25e-3) == pytest.approx({"down": 0.3e-3, "up": 0.5e-3})
+    # Deep enough, they are in nobody's way; through the face, they are as below.
+    assert widths(0.36e-3)["up"] == pytest.approx(0.8e-3)
+    assert widths(0.34e-3)["up"] == pytest.approx(0.5e-3)
 
 
 def samples(cut: Revolved) -> Iterator[tuple[float, float, float]]:

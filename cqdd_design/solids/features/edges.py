@@ -153,12 +153,14 @@ def _width(
         if room is None:
             return None
         face = min(face, room)
-    length = _length(layer, at, inside, facing, every)
+    cylinder = _cylinder(layer, at, inside, facing, every)
+    length = math.fsum(one.top - one.bottom for one in cylinder)
     most = min(chamfer_width(2.0 * at.radius), widest, _FACE_SHARE * face, _LENGTH_SHARE * length)
-    for hole in layer.holes:
-        gap = _gap_to_hole(hole, at, inside) - _HOLE_GAP
-        if gap < most:
-            most = gap
+    for one in cylinder:
+        # At 45 degrees a chamfer is narrower by as much as a hole lies below its face.
+        deep = height - one.top if facing == "up" else one.bottom - height
+        for hole in one.holes:
+            most = min(most, _gap_to_hole(hole, at, inside) + deep - _HOLE_GAP)
     return next((width for width in _SERIES if width <= most + 1e-12), None)
 
 
@@ -184,27 +186,26 @@ def _room(other: _Turned, at: _Round, inside: bool) -> float | None:
     return math.inf if beyond > _SAME or off > other.reach.radius + at.radius else None
 
 
-def _length(
+def _cylinder(
     layer: _Turned, at: _Round, inside: bool, facing: Facing, every: Sequence[_Turned]
-) -> float:
-    """Height of the cylinder that the edge ends, through all layers that share it, m."""
-    into = -1.0 if facing == "up" else 1.0
-    end = layer.bottom if facing == "up" else layer.top
-    length = layer.top - layer.bottom
+) -> list[_Turned]:
+    """Layers that share the cylinder that the edge ends, from the edge on."""
+    found = [layer]
     while True:
+        last = found[-1]
+        end = last.bottom if facing == "up" else last.top
         more = next(
             (
                 other
                 for other in every
-                if abs((other.top if into < 0.0 else other.bottom) - end) < _SAME
+                if abs((other.top if facing == "up" else other.bottom) - end) < _SAME
                 and at.same_as(other.bore if inside else other.outer)
             ),
             None,
         )
         if more is None:
-            return length
-        length += more.top - more.bottom
-        end = more.bottom if into < 0.0 else more.top
+            return found
+        found.append(more)
 
 
 def _gap_to_hole(hole: _Round, at: _Round, inside: bool) -> float:

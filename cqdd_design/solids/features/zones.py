@@ -35,11 +35,11 @@ BAND = "h9"
 SEAL_INSIDE, SEAL_OUTSIDE = "h9", "H9"
 """Of what turns in a gap seal, and of the bore about it."""
 BELL_BORE, MAGNETS, MAGNET_POCKET = "F7", "H7", "H9"
-PRESSED_CAM, CAM_BORE = "k5", "H6"
+PRESSED_CAM, CAM_BORE = "j5", "H5"
 """Seat of a loose eccentric cam, and its bore: within about 10 um true to the seat while its
 compound sets, which alone holds it; more interference would tear its thin side and gain nothing."""
 LOOSE_LOBE = "g5"
-"""Of a loose cam, which is ground before it is pressed on, and grows: by no more than about what a
-lobe of h6 is larger."""
+"""Of a loose cam, which is ground before it is pressed on, and grows: by less than g5 lies below
+h6, so that its bearing slips on it as on the others."""
 RING_PIN, RING_PIN_SEAT = "h6", "H7"
 """Of ring pins whose ends housing and clamp hold."""
