@@ -173,7 +173,9 @@ def binding(judged: Verdict) -> str:
             [
                 (
                     f"{line.id}, {line.title}",
-                    f"{line.substituted}: {line.remedy}" if not line.known else line.remedy,
+                    f"{line.substituted.removesuffix('.')}: {line.remedy}"
+                    if not line.known
+                    else line.remedy,
                 )
                 for line in short
             ]

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import random
+from types import SimpleNamespace
 
 import pytest
 from terminal_lines import too_wide
 
+from cqdd_design.cli.tables import binding
 from cqdd_design.design import Requirements, save_design
+from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.sizing import size
 
 
@@ -124,6 +127,15 @@ def test_a_no_ends_in_exit_code_four_with_what_would_change_it(cqdd, paper_desig
     for one in failing:
         assert f"- {one['id']}, " in done.out
         assert one["remedy"]
+
+
+def test_what_is_not_known_is_one_sentence_with_its_remedy():
+    """Some reasons are messages, which end in a full stop."""
+    line = build_check(
+        "THERMAL-RISE", None, None, "the depth of the slots is not known.", "state it"
+    )
+    said = binding(SimpleNamespace(limits=(line,), filled=(), costs=()))
+    assert "the depth of the slots is not known: state it" in " ".join(said.split())
 
 
 def test_what_is_not_known_is_no_yes(cqdd, paper_design_file, tmp_path):

@@ -371,6 +371,27 @@ def test_no_general_size_asks_for_tenths_of_a_micrometre(machine):
             assert value == pytest.approx(round(value, 2), abs=1e-9), (part.name, text)
 
 
+def test_a_plain_hole_that_the_view_hides_goes_through(machine):
+    """A stator behind the gearbox has its leads go through a flange that another one covers."""
+    other = resolve(machine.given.replacing({"reducer.ring.outer_diameter": "84 mm"}))
+    housing = next(part for part in other.parts if part.name == "housing")
+    (leads,) = (one for one in housing.features if isinstance(one, PlainHole))
+    centre = np.array(leads.circle.centres[0])
+
+    def solid(layer):
+        empty = (h for h in layer.shape.holes if np.hypot(*(h.centre - centre)) < h.radius)
+        return next(empty, None) is None and (
+            np.hypot(*layer.shape.outer.sample(1e-5).T).max() > np.hypot(*centre)
+        )
+
+    beside = [one for one in housing.shape.layers
+              if one.bottom < leads.top + 1e-9 and one.top > leads.bottom - 1e-9]  # fmt: skip
+    assert len(beside) > 2
+    assert not any(solid(one) for one in beside)
+    texts = texts_of(svg_text(drawn(housing, other), ""))
+    assert "through, from the far side" in texts
+
+
 def test_the_sheet_of_a_loose_cam_says_when_it_is_ground(machine):
     """Its lobe, before: the order of assembly has a disc and a bearing on the shaft by then."""
     three = resolve(machine.given.replacing({"reducer.disc_count": 3}))

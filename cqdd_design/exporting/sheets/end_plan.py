@@ -142,7 +142,9 @@ class EndPlan:
             hidden = [hole for hole in group if not self.shape.seen(hole) and not is_seam(hole)]
             rows = [first, *rows[1:], circle_row(group[0].circle)]
             if len(hidden) == len(group):
-                rows.append((Words("from the far side"),))
+                # A plain hole goes through its wall, which the view does not show either.
+                how = "through, " if all(isinstance(one, PlainHole) for one in group) else ""
+                rows.append((Words(f"{how}from the far side"),))
             target = centre + 0.5 * self.factor * size * up
             blocks.append(Block(target, tuple(rows)))
         return blocks
