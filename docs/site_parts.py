@@ -33,7 +33,8 @@ ELSEWHERE = {
 EXPORTED = DOCS / "gallery" / "files"
 
 _SUNK = re.compile(
-    r"(?<![\w/.])(?P<base>[^\W\d_]['*]?)_(?P<low>[^\W_]+)(?!\w)"
+    r"(?<![\w.])(?P<base>(?:[^\W\d_]|alpha|delta|mu|rho|sigma)['*]?)"
+    r"_(?P<low>[^\W_²³¹⁰-⁹]+)(?![^\W²³¹⁰-⁹]|\.\w)"
     r"|\^(?:\((?P<share>-?[\w./]+)\)|(?P<high>-?\w+(?:\.\d+)?))"
 )
 _AS_IT_IS = (nodes.literal, nodes.FixedTextElement, nodes.math, nodes.raw, nodes.title)

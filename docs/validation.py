@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import math
+import re
 import textwrap
 from collections.abc import Iterator
 from pathlib import Path
@@ -68,6 +69,11 @@ def page(found: list[tuple[Any, ...]], table: Path) -> str:
     return "".join(parts)
 
 
+def _dotted(text: str) -> str:
+    """Newton metres as the other pages write them."""
+    return re.sub(r"N m\b", "N·m", text)
+
+
 def _table(found: list[tuple[Any, ...]], column: str) -> Iterator[str]:
     """The rows of a group, in the order of the file."""
     yield f"\n### {found[0][0]['group'].capitalize()}\n\n"
@@ -75,7 +81,8 @@ def _table(found: list[tuple[Any, ...]], column: str) -> Iterator[str]:
     yield "|---|---|---|---|---|---|---|\n"
     for row, ours, exercised in found:
         tolerance = float(row["tol"])
-        unit = "" if row["unit"] == "-" else f" {row['unit']}"
+        case = _dotted(row["case"])
+        unit = "" if row["unit"] == "-" else f" {_dotted(row['unit'])}"
         digits = 1 - math.floor(math.log10(tolerance))
         shown = f"{ours:.{max(digits, len(row['evaluated'].partition('.')[2]))}f}"
         # What rounding leaves of an exact agreement differs from machine to machine.
@@ -83,7 +90,7 @@ def _table(found: list[tuple[Any, ...]], column: str) -> Iterator[str]:
         difference = "0" if abs(off) < 1e-3 * tolerance else f"{float(f'{off:.2g}'):+g}"
         names = ", ".join(f"`{'.'.join(name.split('.')[-2:])}`" for name in exercised)
         yield (
-            f"| {row['case']} | {row['quantity']} | {row['value']}{unit} "
+            f"| {case} | {row['quantity']} | {row['value']}{unit} "
             f"| {shown.rstrip('0').rstrip('.') if '.' in shown else shown} | {difference} "
             f"| ±{tolerance:g} | {names} |\n"
         )

@@ -344,5 +344,5 @@ def test_the_claims_of_the_paper_are_those_computed(cqdd):
     assert len(rows) == len(claims)
     for (_, _, ours, holds), claim in zip(rows, claims, strict=True):
         assert holds.strip() == claim["verdict"]
-        for number in re.findall(r"[0-9]+[.][0-9]+", ours):
+        for number in re.findall(r"[0-9]+[.][0-9]+|[0-9]+(?= mm)", ours):
             assert number in str(claim["ours"]), claim["claim"]

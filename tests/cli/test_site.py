@@ -86,6 +86,7 @@ def test_indices_and_powers_are_set(site: Path) -> None:
         text = re.sub(r"(?s)<(pre|code|math|style|h\d|dl)\b.*?</\1>", "", text)
         words = re.sub(r"<[^>]+>", " ", text)
         assert re.findall(r"(?<![\w/.])[^\W\d_]_[A-Za-z]+\b(?!_)", words) == [], page.name
+        assert re.findall("<sub>[^<]*[\u00b2\u00b3\u2074][^<]*</sub>", text) == [], page.name
     theory = (site / "theory.html").read_text(encoding="utf-8")
     assert "Z<sub>R</sub>" in theory
 
@@ -102,6 +103,11 @@ def test_symbols_are_told_from_names() -> None:
 
     assert set_as("R_w sin(\u03c6), F^0.9/b^0.8") == ("R[sub w] sin(\u03c6), F[sup 0.9]/b[sup 0.8]")
     assert set_as("N_w(n+1)") == "N[sub w](n+1)"
+    assert set_as("r_p\u2074 - (b_i\u00b2)") == "r[sub p]\u2074 - (b[sub i]\u00b2)"
+    assert set_as("(F_V - F_A)/F_Q >= mu_0/d_p") == (
+        "(F[sub V] - F[sub A])/F[sub Q] >= mu[sub 0]/d[sub p]"
+    )
+    assert set_as("sigma_m/S_u. So") == "sigma[sub m]/S[sub u]. So"
     assert set_as("E*_1, W^-0.13, d^(2/3).") == "E*[sub 1], W[sup \u22120.13], d[sup 2/3]."
     for name in ("peak_torque", "x_position_m", "a/b_c.toml", "file_a"):
         assert set_as(name) == name

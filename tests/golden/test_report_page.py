@@ -29,6 +29,7 @@ from cqdd_design.report.ink.mathml import lowered
 from cqdd_design.report.ink.tables import readable_tables
 from cqdd_design.report.judgement.check_rows import printed
 from cqdd_design.report.judgement.origins import values_by_group
+from cqdd_design.report.machine_view.balloons import legend
 from cqdd_design.results import Check
 
 VOID = {"meta", "link", "br", "hr", "img", "input", "col", "circle", "line", "path", "rect"}
@@ -262,6 +263,23 @@ def test_bill_of_materials_and_inertia(page: str, paper_input: ReportInput) -> N
         paper_input.design.replacing({"reducer.output_pins.circle_radius": "19.6 mm"}), bodies
     )
     assert "paper" not in str(other["reflected"])
+
+
+def test_what_is_bought_goes_by_the_name_of_an_order(paper_input: ReportInput) -> None:
+    """As on the assembly's sheet and in its bill: "SKF * 6200" is a word of the catalogue."""
+    bodies = paper_input.bodies
+    assert bodies is not None
+    parts = [
+        dataclasses.replace(part, designation="SKF * 6200")
+        if part.name == "shaft bearing"
+        else part
+        for part in bodies.parts
+    ]
+    rows = bodies_view(paper_input.design, dataclasses.replace(bodies, parts=parts))["rows"]
+    assert [row[2] for row in rows if row[0] == "shaft bearing"] == ["SKF 6200"]
+    listed = legend(parts, 900.0, 0.0)[0]
+    assert "SKF 6200" in listed
+    assert "SKF * " not in listed
 
 
 def test_without_bodies_and_sizing_their_sections_are_left_out(paper_input: ReportInput) -> None:

@@ -27,6 +27,7 @@ from cqdd_design.exporting.sheets.drawing import OUTLINE, THIN, SheetDrawing
 from cqdd_design.exporting.sheets.lettering import WIDTHS, fitting_height, printable, text_width
 from cqdd_design.exporting.sheets.title_block import SCALES
 from cqdd_design.machine import resolve
+from cqdd_design.report.drawings.wire_edm import edm_view
 from cqdd_design.roads.export import export
 
 COLUMNS = {"reducer.carrier.joint": "columns", "reducer.carrier.column_diameter": "4 mm"}
@@ -226,6 +227,20 @@ def test_a_pdf_is_one_whole_page(package):
     length = int(re.search(rb"/Length (\d+)", data).group(1))
     begin = data.index(b"stream\n") + len(b"stream\n")
     assert data[begin + length :].startswith(b"\nendstream")
+
+
+def test_page_and_package_say_the_same_of_a_part(paper):
+    """Holes of D8 stood on the page as shafts of d8."""
+    machine = resolve(paper)
+    told = edm_view(machine)["remarks"]
+    package = [(flat.label, facts_of(flat, machine).remarks) for flat in flat_parts(machine)]
+    assert list(told) == [
+        f"{label}: {one[0].lower()}{one[1:].removesuffix('.')}"
+        for label, all_ in package
+        for one in all_
+    ]
+    assert any(" D8 for dowels" in one for one in told)
+    assert any("about the X axis" in one for one in told)
 
 
 def test_a_date_is_that_of_source_date_epoch_or_of_today(paper, monkeypatch):

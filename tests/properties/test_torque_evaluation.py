@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -643,6 +644,22 @@ def test_the_leaked_score_stands_beside_the_honest_one(data):
     assert models["pv-gru"]["leaked_rmse_Nm"] == 0.4
     assert models["mlp"]["leaked_rmse_Nm"] is None
     assert "0.400" in torque_page(result)
+
+
+def test_baselines_of_a_figure_are_told_apart(data):
+    """They share one grey, so each has a line of its own."""
+    factors = {"friction-fit": 1.0, "pd-law": 0.5, "physics": 0.8}
+    models = [replace(known(*one), kind="baseline") for one in factors.items()]
+    result = run(data, models)
+    page = torque_page(result)
+    trace = page[page.index('id="torque-trace"') :]
+    legend = trace[trace.index('class="legend-row"') :]
+    lines = re.findall(r'class="(curve [^"]+)"', legend[: legend.index("</g>")])
+    assert len(lines) == 4
+    assert len(set(lines)) == 4
+    dashed = dict(re.findall(r"\.curve\.(t-base-\d)\s*\{\s*stroke-dasharray:\s*([^;}]+)", page))
+    patterns = [dashed.get(line.split()[-1]) for line in lines[1:]]
+    assert len(set(patterns)) == 3
 
 
 def test_bad_input_is_refused(data):

@@ -95,6 +95,12 @@ def ordered_as(row: Bearing) -> str:
     return plain.replace(" on ", " with inner ring ").replace("SKF * ", "SKF ")
 
 
+def ordered(designation: str) -> str:
+    """What to order by a name of the catalogue, or how a part is made."""
+    bearing = bearings().get(designation)
+    return designation if bearing is None else ordered_as(bearing)
+
+
 def equal_bearings(row: Bearing) -> tuple[Bearing, ...]:
     """Others of the catalogue of the same kind and sizes whose ratings are no lower."""
     if row.dynamic_rating is None or row.static_rating is None:

@@ -6,6 +6,7 @@ Zones follow from the standard deviations of the design's [tolerances], as those
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -54,6 +55,20 @@ class Zones:
     profile: float
     hole_position: float
     hole_diameter: float
+
+
+def said(remarks: Iterable[str]) -> tuple[str, ...]:
+    """Remarks, which are in capitals, as running text; axes and zones of holes keep theirs.
+
+    Examples
+    --------
+    >>> said(["TURNED OVER ABOUT THE X AXIS", "HALF GROOVES DIA 1.5 D8"])
+    ('turned over about the X axis', 'half grooves dia 1.5 D8')
+    """
+    return tuple(
+        re.sub(r"\b[dh]\d+\b|\bx(?= axis)", lambda found: found[0].upper(), one.lower())
+        for one in remarks
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,12 +123,8 @@ class CutFacts:
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """Remarks of the part, which are in capitals, as sentences."""
-        said = (remark.capitalize().replace(" x axis", " X axis") for remark in self.flat.remarks)
-        # Zones of holes are capitals, whatever the sentence.
-        return tuple(
-            re.sub(r"\b[dh]\d+\b", lambda zone: zone[0].upper(), one) + "." for one in said
-        )
+        """Remarks of the part as sentences."""
+        return tuple(f"{one[0].upper()}{one[1:]}." for one in said(self.flat.remarks))
 
     @property
     def seat_by_contour(self) -> dict[int, Seat]:

@@ -5,10 +5,9 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from cqdd_design.catalog import bearings
 from cqdd_design.catalog.tightening import torque_words
 from cqdd_design.exporting.bill.consumables import consumables
-from cqdd_design.exporting.bill.substitutes import ordered_as
+from cqdd_design.exporting.bill.substitutes import ordered
 from cqdd_design.exporting.sheets.wording import joint_note
 from cqdd_design.machine.centring import centring
 from cqdd_design.machine.grease import grease_fill
@@ -21,7 +20,6 @@ from cqdd_design.solids.tool_access import reaches
 
 if TYPE_CHECKING:
     from cqdd_design.machine import Machine
-    from cqdd_design.solids.part import Part
     from cqdd_design.solids.stations import Station
 
 _RUN_OUT = "0.2"
@@ -53,7 +51,13 @@ class AssemblyFacts:
     def parts_list(self) -> list[tuple[str, ...]]:
         """A row a line of the bill of materials, in its numbers and words."""
         rows = [
-            (str(part.count), part.name, _ordered(part), part.material, f"{1e3 * part.mass:.4g}")
+            (
+                str(part.count),
+                part.name,
+                ordered(part.designation),
+                part.material,
+                f"{1e3 * part.mass:.4g}",
+            )
             for part in self.parts
         ]
         if self.machine.layout.motor_end is None:
@@ -133,12 +137,6 @@ class AssemblyFacts:
             key = "" if size is None or step.is_unit else f", key {1e3 * size:.3g}"
             said.append(f"{bench}{what}, {how}{key}")
         return said
-
-
-def _ordered(part: Part) -> str:
-    """What to order, or how it is made."""
-    bearing = bearings().get(part.designation)
-    return part.designation if bearing is None else ordered_as(bearing)
 
 
 def _span(pair: tuple[float, float]) -> str:

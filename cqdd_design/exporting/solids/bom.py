@@ -111,7 +111,7 @@ def bill_of_materials(machine: Machine, parts: Sequence[Part]) -> tuple[BomRow, 
     """
     from cqdd_design.exporting.bill.consumables import consumables
     from cqdd_design.exporting.bill.fitting import fitting_notes
-    from cqdd_design.exporting.bill.substitutes import ordered_as, substitutes
+    from cqdd_design.exporting.bill.substitutes import ordered, substitutes
 
     named = {part.name: part for part in parts}
     notes = fitting_notes(machine)
@@ -126,12 +126,10 @@ def bill_of_materials(machine: Machine, parts: Sequence[Part]) -> tuple[BomRow, 
         if row.make_or_buy == "make":
             rows.append(row)
             continue
-        bearing = bearings().get(row.designation)
-        designation = row.designation if bearing is None else ordered_as(bearing)
         rows.append(
             replace(
                 row,
-                designation=machine.motor.name if row.part == _STATOR else designation,
+                designation=machine.motor.name if row.part == _STATOR else ordered(row.designation),
                 fitting=notes.get(row.part, ""),
                 substitutes="; ".join(substitutes(machine, part)),
             )

@@ -76,7 +76,7 @@ def _profile(state: GearboxState) -> tuple[Check, ...]:
             "GEO-TOOTH-OVERLAP",
             _mm(r),
             _mm(most_overlap),
-            f"{allowables.TOOTH_OVERLAP_SHARE:g} x {_mm(radius):.4g} mm x sin(180/{n + 1} deg) = "
+            f"{allowables.TOOTH_OVERLAP_SHARE:g} x {_mm(radius):.4g} mm x sin(180 deg/{n + 1}) = "
             f"{_mm(most_overlap):.4f} mm",
             f"lower {key} to {rounded_down(2.0 * _mm(most_overlap)):g} mm",
         ),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from cqdd_design.exporting.edm.cut_facts import said
 from cqdd_design.exporting.edm.dxf import contour_fit
 from cqdd_design.exporting.edm.flat_parts import FlatPart, flat_parts
 from cqdd_design.machine import Machine
@@ -21,7 +22,7 @@ def edm_view(machine: Machine) -> Values:
         "beside it. Every file is read back from disk and measured so before it gets its name.",
         "rows": tuple(_row(flat) for flat in flats),
         "remarks": tuple(
-            f"{flat.label}: {remark.lower()}" for flat in flats for remark in flat.remarks
+            f"{flat.label}: {remark}" for flat in flats for remark in said(flat.remarks)
         ),
     }
 

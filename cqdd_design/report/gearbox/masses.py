@@ -8,6 +8,7 @@ from collections.abc import Container
 from cqdd_design.catalog.paper import METRICS, is_papers_actuator
 from cqdd_design.design import Design
 from cqdd_design.errors import CatalogError
+from cqdd_design.exporting.bill.substitutes import ordered
 from cqdd_design.exporting.solids.bom import BomRow, part_rows
 from cqdd_design.gearbox.balance import paper_disc_count
 from cqdd_design.machine.weighing import DISC_COUNTS, Bodies
@@ -75,7 +76,7 @@ def _part_row(row: BomRow, part: PartInertia | None, inertia: GearboxInertia) ->
     return (
         row.part,
         str(row.quantity),
-        printed(row.designation),
+        printed(ordered(row.designation)),
         row.material,
         row.make_or_buy,
         "not known" if each is None else decimals(1e3 * each, 1) + ("*" if catalogue else ""),

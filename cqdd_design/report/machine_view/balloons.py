@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from cqdd_design.exporting.bill.substitutes import ordered
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.report.ink.svg import element, text
 from cqdd_design.report.machine_view.paint import INK, Sheet
@@ -122,7 +123,8 @@ def legend(parts: Sequence[Part], width: float, top: float) -> tuple[str, float]
         x, y = column * (index // rows), top + 26.0 + _ROW * (index % rows)
         label = part.name if part.count == 1 else f"{part.count} \u00d7 {part.name}"
         room = most - len(label) - 2
-        detail = part.designation if len(part.designation) <= room else ""
+        what = ordered(part.designation)
+        detail = what if len(what) <= room else ""
         drawn.append(text((x + 18.0, y), str(index + 1), "label", "end"))
         drawn.append(text((x + 28.0, y), label, "name-dark"))
         if detail:

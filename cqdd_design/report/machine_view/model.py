@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from cqdd_design.design import Design
+from cqdd_design.exporting.bill.substitutes import ordered
 from cqdd_design.exporting.solids import gltf
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.report.machine_view.explode import take_apart
@@ -86,7 +87,7 @@ def viewer_data(design: Design, parts: Sequence[Part]) -> ViewerData:
                 "part": part.name,
                 "name": piece.name,
                 "material": part.material,
-                "designation": part.designation,
+                "designation": ordered(part.designation),
                 "body": piece.body.kind,
                 "explode": round(shifts[piece.name], 6),
                 "placement": (np.round(piece.placement, 12) + 0.0).T.ravel().tolist(),

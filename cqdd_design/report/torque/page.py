@@ -40,6 +40,7 @@ _CURVES = 4
 """Models that share one panel; more cannot be told apart."""
 _PANELS = 9
 _COLOURS = 8
+_LINES = 4
 
 
 def torque_page(results: EvaluationResult, *, date: str = "") -> str:
@@ -105,10 +106,11 @@ def _lead(headline: SetResult) -> str:
 
 
 def _classes(results: EvaluationResult) -> dict[str, str]:
-    """A colour of every model, the same in all figures."""
+    """A colour of every network and a line of every baseline, the same in all figures."""
     networks = [one.name for one in results.models if one.kind == "network"]
     found = {name: f"t-{k % _COLOURS + 1}" for k, name in enumerate(networks)}
-    return found | {one.name: "t-base" for one in results.models if one.name not in found}
+    others = [one.name for one in results.models if one.name not in found]
+    return found | {name: f"t-base t-base-{k % _LINES + 1}" for k, name in enumerate(others)}
 
 
 def _drawn(results: EvaluationResult, found: SetResult, count: int) -> list[ModelScore]:
