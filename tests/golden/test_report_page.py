@@ -277,6 +277,7 @@ def test_what_is_bought_goes_by_the_name_of_an_order(paper_input: ReportInput) -
     ]
     rows = bodies_view(paper_input.design, dataclasses.replace(bodies, parts=parts))["rows"]
     assert [row[2] for row in rows if row[0] == "shaft bearing"] == ["SKF 6200"]
+    assert "DIN 988 - 16 \u00d7 22" in {row[2].split(",")[0] for row in rows}
     listed = legend(parts, 900.0, 0.0)[0]
     assert "SKF 6200" in listed
     assert "SKF * " not in listed

@@ -12,7 +12,7 @@ from cqdd_design.exporting.bill.substitutes import ordered
 from cqdd_design.exporting.solids.bom import BomRow, part_rows
 from cqdd_design.gearbox.balance import paper_disc_count
 from cqdd_design.machine.weighing import DISC_COUNTS, Bodies
-from cqdd_design.report.ink.numbers import decimals, millimetres, significant, with_unit
+from cqdd_design.report.ink.numbers import MINUS, decimals, millimetres, significant, with_unit
 from cqdd_design.report.ink.page import Values
 from cqdd_design.report.ink.svg import Figure, Words, line, rectangle, text
 from cqdd_design.report.judgement.check_rows import printed
@@ -76,7 +76,8 @@ def _part_row(row: BomRow, part: PartInertia | None, inertia: GearboxInertia) ->
     return (
         row.part,
         str(row.quantity),
-        printed(ordered(row.designation)),
+        # The hyphen of a standard's name is no minus.
+        printed(ordered(row.designation)).replace(MINUS, "-"),
         row.material,
         row.make_or_buy,
         "not known" if each is None else decimals(1e3 * each, 1) + ("*" if catalogue else ""),
