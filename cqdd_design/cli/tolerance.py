@@ -72,6 +72,18 @@ def tolerance(
     return INTERRUPTED_WITH_RESULTS if result.interrupted else 0
 
 
+def _beside_the_verdict(result: ToleranceResult) -> list[str]:
+    """How to draw the gearboxes that the backlash of a verdict is of, where these are others."""
+    from cqdd_design.gearbox.checks.allowables import YIELD_SAMPLES
+
+    if result.asked == YIELD_SAMPLES:
+        return []
+    return folded(
+        f"check, size, bench and report tell the backlash of {YIELD_SAMPLES} gearboxes: "
+        f"--samples {YIELD_SAMPLES} draws those"
+    )
+
+
 def _lines(result: ToleranceResult) -> list[str]:
     if not len(result.values):
         return ["no gearbox was finished"]
@@ -97,6 +109,7 @@ def _lines(result: ToleranceResult) -> list[str]:
             f"{number(result.ensemble.torque)} N*m, {result.solves:,} equilibria with friction in "
             f"{result.seconds:.1f} s; 5 % to 99 %: so many of the gearboxes have at most this"
         ),
+        *_beside_the_verdict(result),
         "",
         table(rows, head=("", *heads, "limit"), right=tuple(range(1, len(columns) + 2))),
     ]

@@ -12,6 +12,8 @@ from pathlib import Path
 import pytest
 from terminal_lines import too_wide
 
+from cqdd_design.gearbox.checks.allowables import YIELD_SAMPLES
+
 DESIGN = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
 OUTPUTS = (
     "backlash_arcmin",
@@ -70,6 +72,17 @@ def test_people_get_a_table_and_a_ranking(cqdd) -> None:
     assert "which tolerance it comes from" in done.out
     assert "of 128" not in done.out
     assert len(done.err.splitlines()) <= 12
+
+
+def test_the_backlash_of_the_verdict_is_that_of_as_many_gearboxes(cqdd) -> None:
+    """Of 1000 gearboxes it is another number, and said to be."""
+    judged = cqdd("check", str(DESIGN), "--json").document["results"]["verdict"]["headline"]
+    backlash = next(one["value"] for one in judged if one["id"] == "backlash_p95")
+    words = f"backlash of {YIELD_SAMPLES} gearboxes: --samples {YIELD_SAMPLES} draws"
+    same = cqdd("tolerance", str(DESIGN), "--samples", str(YIELD_SAMPLES))
+    assert f" {backlash:.4g} " in next(one for one in same.out.splitlines() if "backlash" in one)
+    assert words not in " ".join(same.out.split())
+    assert words in " ".join(cqdd("tolerance", str(DESIGN), "--samples", "20").out.split())
 
 
 @pytest.mark.parametrize(
