@@ -104,7 +104,9 @@ def _pieces(row: Sequence[str], widths: Sequence[int], whole: set[int]) -> list[
             continue
         indent = cell[: len(cell) - len(cell.lstrip())]
         after = indent + "  " if place == 0 else ""
-        columns.append(wrapped(cell.strip(), width, indent, after) or [""])
+        lines = wrapped(cell.strip(), width, indent, after) or [""]
+        alone = place == len(row) - 1 and len(lines[0]) > width
+        columns.append(["", *lines] if alone else lines)
     count = max(len(column) for column in columns)
     return [
         [column[line] if line < len(column) else "" for column in columns] for line in range(count)
@@ -125,8 +127,7 @@ def _width_in(title: str, lines: int) -> int:
 def _longest_word(rows: Sequence[Sequence[str]], place: int) -> int:
     """Of what a column holds; in names with the indent of lines that go on.
 
-    Addresses of the last column are left out: they may stand over the edge, and no column is
-    out of line by it.
+    Addresses of the last column are left out: where they are longer, they get a line of their own.
     """
     last = place == len(rows[0]) - 1
     words = (word for row in rows for word in row[place].split() if not (last and _address(word)))

@@ -82,7 +82,10 @@ def _line(cells: Sequence[str], widths: Sequence[int], right: Sequence[int]) -> 
         cell.rjust(width) if place in right else cell.ljust(width)
         for place, (cell, width) in enumerate(zip(cells, widths, strict=True))
     )
-    return "  ".join(told).rstrip()
+    line = "  ".join(told).rstrip()
+    # An address that no column holds begins further left.
+    further = len(line) > WIDTH and len(cells) > 1 and not any(cells[:-1])
+    return " " * INDENT + cells[-1] if further else line
 
 
 def listing(rows: Sequence[Sequence[str]], *, head: Sequence[str]) -> str:

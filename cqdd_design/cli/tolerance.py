@@ -76,11 +76,11 @@ def _beside_the_verdict(result: ToleranceResult) -> list[str]:
     """How to draw the gearboxes that the backlash of a verdict is of, where these are others."""
     from cqdd_design.gearbox.checks.allowables import YIELD_SAMPLES
 
-    if result.asked == YIELD_SAMPLES:
+    if (result.asked, result.ensemble.seed) == (YIELD_SAMPLES, 0):
         return []
     return folded(
         f"check, size, bench and report tell the backlash of {YIELD_SAMPLES} gearboxes: "
-        f"--samples {YIELD_SAMPLES} draws those"
+        f"--samples {YIELD_SAMPLES} --seed 0 draws those"
     )
 
 
