@@ -115,7 +115,7 @@ class AssemblyFacts:
         fill = grease_fill(self.machine)
         return (
             f"Fill the space round the discs with {fill.lubricant.name}: {1e6 * fill.volume:.2g} "
-            f"cm3, {1e3 * fill.mass:.2g} g, a third of what is free there."
+            f"cm\u00b3, {1e3 * fill.mass:.2g} g, a third of what is free there."
         )
 
     @cached_property

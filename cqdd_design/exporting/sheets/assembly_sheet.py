@@ -57,7 +57,7 @@ def draw_assembly(facts: AssemblyFacts) -> SheetDrawing:
     view.draw(sheet, complex(0.5 * (left + right), 0.5 * (bottom + top)))
     corner = complex(A3.title.real + 1.0, A3.top - 3.0)
     rows = [PARTS_HEAD, *facts.parts_list()]
-    torques = [("screwed joint", "screws", "torque, N m"), *facts.torques()]
+    torques = [("screwed joint", "screws", "torque, N\u00b7m"), *facts.torques()]
     plays = [PLAY_HEAD, *facts.plays()]
     said = [*facts.notes(), *_unnumbered(facts, view)]
     wide, foot = A3.right - corner.real - 2.0, block.title_top(_ROWS) + 2.0

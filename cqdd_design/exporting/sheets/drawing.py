@@ -24,6 +24,8 @@ _PENS = {OUTLINE: 50, FINE: 25, THIN: 18, AXIS: 18, HIDDEN: 18}
 TEXT, SMALL = 2.5, 2.2
 """Cap heights, mm."""
 STYLE = "SHEET"
+FONT = "arial.ttf"
+"""Of the DXF: as wide as the Helvetica of PDF and SVG, and there where drawings are opened."""
 _STYLED: dict[str, Any] = {"dimstyle": STYLE, "dxfattribs": {"layer": THIN}}
 """How every dimension is drawn."""
 CELL = 5.6
@@ -47,7 +49,7 @@ def new_sheet(scale: float, paper: Paper = A3) -> SheetDrawing:
         drawing = new("R2010", setup=False, units=4)
     drawing.linetypes.add("CENTRE", pattern=_CENTRE_LINE, description="centre line")
     drawing.linetypes.add("DASHED", pattern=_DASHED, description="hidden line")
-    # No font of the machine: dimensions reckon with a cap height a character.
+    # No font of the machine yet: dimensions reckon with a cap height a character.
     drawing.styles.add(STYLE, font="*monospace")
     for name, pen in _PENS.items():
         drawing.layers.add(name, lineweight=pen, linetype=_LINETYPES.get(name, "CONTINUOUS"))
@@ -79,6 +81,10 @@ class SheetDrawing:
         self.scale = scale
         self.paper = paper
         self._space = drawing.modelspace()
+
+    def name_font(self) -> None:
+        """Name the font that a program which opens the DXF is to write with."""
+        self.drawing.styles.get(STYLE).dxf.font = FONT
 
     def line(self, start: complex, end: complex, layer: str = THIN) -> None:
         """Draw a straight line."""
@@ -170,6 +176,8 @@ class SheetDrawing:
         `turn` is the angle of its direction, deg.
         """
         words = printable(words)
+        if not words.strip():
+            return 0.0
         size = fitting_height(words, height, room)
         where = {"layer": THIN, "insert": _xy(place), "style": STYLE, "rotation": turn}
         self._space.add_text(words, height=size, dxfattribs=where)

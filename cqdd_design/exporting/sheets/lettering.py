@@ -29,7 +29,7 @@ _SIGNS = {
     **dict.fromkeys(" !,./:;[\\]I\u00b7", 278),
     **dict.fromkeys('"', 355),
     **dict.fromkeys("#$?_\u00b5", 556),
-    **dict.fromkeys("()-`\u00b2", 333),
+    **dict.fromkeys("()-`\u00b2\u00b3", 333),
     **dict.fromkeys("+<=>~\u00b1\u00d7", 584),
     **dict.fromkeys("{}", 334),
     "%": 889,

@@ -146,7 +146,7 @@ class SectionShape:
 
     def _reach(self, height: float) -> float:
         ending = [
-            one.radius + abs(one.centre)
+            self._below(one)
             for one in self.bodies
             if min(abs(one.bottom - height), abs(one.top - height)) < 1e-7
         ]
@@ -159,6 +159,11 @@ class SectionShape:
             and min(abs(f.bottom - height), abs(f.top - height)) < 1e-7
         ]
         return max(across, default=self.facts.outside)
+
+    def _below(self, body: Cylinder) -> float:
+        """How far a cylinder reaches below the axis in the lower half plane, m."""
+        centre = body.centre * cmath.exp(-1j * self.directions[1])
+        return centre.real + math.sqrt(max(body.radius**2 - centre.imag**2, 0.0))
 
 
 @dataclass(frozen=True, eq=False)

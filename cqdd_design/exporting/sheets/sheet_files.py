@@ -61,21 +61,26 @@ def sheets_of(job: ExportJob) -> Iterator[tuple[str, str, SheetDrawing]]:
     yield whole.number, "assembly", draw_assembly(whole)
 
 
-def _written(job: ExportJob, number: str, title: str, sheet: SheetDrawing) -> list[WrittenFile]:
+def twins(sheet: SheetDrawing, named: str) -> dict[str, str | bytes]:
+    """The same sheet in every format, by the ending of its file; `named` is its title."""
     from cqdd_design.exporting.sheets.canvas import pdf_bytes, render, svg_text
 
     with reproducible():
         canvas = render(sheet)
+        sheet.name_font()
         add_classes(sheet.drawing)
         text = io.StringIO()
         sheet.drawing.write(text)
-    named = f"{number}: {title}"
+    return {
+        "pdf": pdf_bytes(canvas, named),
+        "svg": svg_text(canvas, named),
+        "dxf": text.getvalue(),
+    }
+
+
+def _written(job: ExportJob, number: str, title: str, sheet: SheetDrawing) -> list[WrittenFile]:
     stem = job.folder / FOLDER / number
     return [
         write_atomically(stem.with_name(f"{number}.{ending}"), content, "sheets")
-        for ending, content in (
-            ("pdf", pdf_bytes(canvas, named)),
-            ("svg", svg_text(canvas, named)),
-            ("dxf", text.getvalue()),
-        )
+        for ending, content in twins(sheet, f"{number}: {title}").items()
     ]
