@@ -204,6 +204,34 @@ def measurement(name: str) -> str:
     return _MEASURED.get(name) or term(name).words
 
 
+def hardly(value: float, unit: str) -> str:
+    """What stands for a life of less than an hour, whose digits mean nothing; else nothing.
+
+    Every output asks it before it prints a number, so that all say the same; JSON and CSV, which
+    are read by programs, keep the number.
+
+    Examples
+    --------
+    >>> hardly(1.18e-5, "h"), hardly(677.0, "h"), hardly(0.5, "N*m")
+    ('under 1', '', '')
+    """
+    return "under 1" if unit == "h" and 0.0 <= value < 1.0 else ""
+
+
+def life_text(hours: float, digits: int = 4) -> str:
+    """A life in a sentence.
+
+    Examples
+    --------
+    >>> life_text(677.25), life_text(360814.2, 3), life_text(1.18e-5)
+    ('677.2 h', '360814 h', 'under 1 h')
+    """
+    shown = f"{hours:.{digits}g}"
+    if "e" in shown and hours < 1e7:
+        shown = f"{hours:.0f}"
+    return f"{hardly(hours, 'h') or shown} h"
+
+
 def _words(name: str) -> str:
     if name in PHRASES:
         return PHRASES[name]

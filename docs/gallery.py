@@ -167,8 +167,8 @@ def _entry(shown: Shown) -> str:
     """A design of the page."""
     judged = shown.judged()
     figures = [
-        f"| {one.title} | {_value(one.value)} | {_value(one.required)} | {pretty_unit(one.unit)} "
-        f"| {one.status} |"
+        f"| {one.title} | {_value(one.value, one.unit)} | {_value(one.required, one.unit)} "
+        f"| {pretty_unit(one.unit)} | {one.status} |"
         for one in judged.verdict.headline
     ]
     statuses = [one.status for one in judged.checks]
@@ -193,8 +193,12 @@ def _entry(shown: Shown) -> str:
     )
 
 
-def _value(value: float | None) -> str:
-    return "\u2013" if value is None else f"{value:.3g}" if value < 1000 else f"{value:.0f}"
+def _value(value: float | None, unit: str) -> str:
+    from cqdd_design.terms import hardly
+
+    if value is None:
+        return "\u2013"
+    return hardly(value, unit) or (f"{value:.3g}" if value < 1000 else f"{value:.0f}")
 
 
 def main() -> None:

@@ -15,7 +15,7 @@ from cqdd_design.actuator.shock import METHODS, Shock
 from cqdd_design.cli.tables import folded, number, table, told
 from cqdd_design.results import Check
 from cqdd_design.roads.analyse import ASKED, UNLOADED, Analysis
-from cqdd_design.terms import term
+from cqdd_design.terms import hardly, term
 
 _SAME = 1e-9
 """Relative difference of one number on two ways to a page."""
@@ -175,7 +175,7 @@ def _rows(
         if check is not None and _is_of(check, value):
             status, limit = _status(check), _limit(check)
             del open_limits[check.id]
-        name, shown = ", ".join(named), _shown(value)
+        name, shown = ", ".join(named), _shown(value, unit)
         if isinstance(value, str) and len(shown) > _LONGEST:
             name, shown = f"{name}: {shown}", ""
         rows.append([status, name, shown, unit, limit])
@@ -200,7 +200,7 @@ def _limit_rows(checks: Iterable[Check]) -> list[list[str]]:
         [
             _status(check),
             check.title,
-            "?" if check.value is None else number(check.value),
+            "?" if check.value is None else hardly(check.value, check.unit) or number(check.value),
             check.unit,
             _limit(check),
         ]
@@ -242,9 +242,9 @@ def _single(values: Mapping[str, object]) -> dict[str, object]:
     return found
 
 
-def _shown(value: object) -> str:
+def _shown(value: object, unit: str = "") -> str:
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, float):
-        return number(value)
+        return hardly(value, unit) or number(value)
     return "-" if value is None else str(value)

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from cqdd_design.cli.fitting import INDENT, WIDTH, Columns, folded_columns, wrapped
+from cqdd_design.terms import hardly
 
 if TYPE_CHECKING:
     from cqdd_design.results import Check
@@ -125,7 +126,7 @@ def checks_table(checks: Sequence[Check]) -> str:
             [
                 check.status.upper() if check.status != "pass" else "pass",
                 check.id,
-                _maybe(check.value),
+                _maybe(check.value, check.unit),
                 relation,
                 _maybe(check.limit),
                 check.unit,
@@ -136,9 +137,9 @@ def checks_table(checks: Sequence[Check]) -> str:
     return table(rows, head=head, right=(2, 4, 6))
 
 
-def _maybe(value: float | None) -> str:
+def _maybe(value: float | None, unit: str = "") -> str:
     """A number, or that it is not known."""
-    return "?" if value is None else number(value)
+    return "?" if value is None else hardly(value, unit) or number(value)
 
 
 def headline_table(judged: Verdict) -> str:
@@ -147,7 +148,7 @@ def headline_table(judged: Verdict) -> str:
         [
             one.status.upper() if one.status != "pass" else "pass",
             one.title,
-            _maybe(one.value),
+            _maybe(one.value, one.unit),
             "-" if one.required is None else number(one.required),
             one.unit,
         ]

@@ -33,6 +33,7 @@ from cqdd_design.machine.shaft_strength import (
     with_still_force,
 )
 from cqdd_design.results import Check
+from cqdd_design.terms import life_text
 
 _MEGA = 1e6
 _WIDER = "leave room for larger support bearings (a cam bearing with a larger bore)"
@@ -337,5 +338,5 @@ def _life(
     hours = min(set_life(each, element), ENDLESS) if each else ENDLESS
     told = f"{row.designation}: C {row.dynamic_rating:.0f} N under {max(equal):.1f} N"
     return build_check(
-        name, hours, required, f"{told}: {hours:.4g} h together", remedy, model=DUTY_MODEL
+        name, hours, required, f"{told}: {life_text(hours)} together", remedy, model=DUTY_MODEL
     )

@@ -34,6 +34,7 @@ from cqdd_design.gearbox.life.result import PartLife
 from cqdd_design.gearbox.life.runners import RunnerLife
 from cqdd_design.gearbox.pin_beam import HELD
 from cqdd_design.results import Check
+from cqdd_design.terms import life_text
 
 MODEL = "contact equilibrium of perfect parts, driving with friction"
 DUTY_MODEL = f"fatigue over the duty by the {MODEL}"
@@ -329,7 +330,7 @@ def _lasting(
         limit, told = max(worst.limit, worst.stress), "no load cycles over the duty"
     else:
         limit = worst.stress * worst.reserve
-        hours = "no end" if worst.hours is None else f"{worst.hours:.3g} h"
+        hours = "no end" if worst.hours is None else life_text(worst.hours, 3)
         told = f"{worst.stress / _MEGA:.1f} MPa at the {worst.part}, {worst.place}: lasts {hours}"
     reserve = limit / worst.stress if worst.stress else 0.0
     if check_id != "PIN-BENDING-CONTINUOUS":
@@ -379,7 +380,7 @@ def _cam_life(state: GearboxState, life: LifeResult, cures: Cures) -> Check:
         cam.set_hours,
         required,
         f"{len(cam.equivalent_load)} x {cam.designation}, C {rating:.0f} N, equivalent load up to "
-        f"{load:.1f} N: {cam.set_hours:.4g} h together",
+        f"{load:.1f} N: {life_text(cam.set_hours)} together",
         f"needs C of {rating / share / 1e3:.3g} kN: take a larger cam bearing; or "
         + _lower_duty("BEARING-LIFE", life, share, cures),
         model=DUTY_MODEL,
@@ -405,8 +406,8 @@ def _runner_life(state: GearboxState, life: LifeResult, runner: RunnerLife, cure
         check_id,
         hours,
         required,
-        f"{runner.designation}: equivalent load {runner.equivalent_load:.1f} N, {hours:.4g} h "
-        "together",
+        f"{runner.designation}: equivalent load {runner.equivalent_load:.1f} N, "
+        f"{life_text(hours)} together",
         "use larger ones, or more; or " + _lower_duty(check_id, life, share, cures),
         model=DUTY_MODEL,
     )

@@ -22,6 +22,7 @@ from cqdd_design.gearbox.checks.remedies import (
 from cqdd_design.gearbox.checks.state import GearboxState, build_check
 from cqdd_design.gearbox.loads import RigidMaxima
 from cqdd_design.results import Check
+from cqdd_design.terms import life_text
 
 _MEGA = 1e6
 _SPREAD = {
@@ -176,7 +177,7 @@ def _bearing(state: GearboxState) -> tuple[Check, ...]:
             life,
             hours,
             f"{bearing.designation}: 1e6 ({dynamic:.0f} N/{cam.continuous_load:.1f} N)^"
-            f"{exponent:.3g}/(60 x {rpm:.0f} rpm) = {life:.0f} h",
+            f"{exponent:.3g}/(60 x {rpm:.0f} rpm) = {life_text(life)}",
             (f"needs C of {needed / 1e3:.3g} kN: " if math.isfinite(needed) else "")
             + f"{other}; or "
             + lower_screened(state, state.rigid_continuous, at_life / cam.continuous_load),

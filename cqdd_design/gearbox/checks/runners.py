@@ -18,6 +18,7 @@ from cqdd_design.gearbox.loads import RigidMaxima
 from cqdd_design.gearbox.pin_beam import HELD
 from cqdd_design.geometry.runners import Runner, pin_runner, ring_runner
 from cqdd_design.results import Check
+from cqdd_design.terms import life_text
 
 
 class _Seat(NamedTuple):
@@ -90,7 +91,8 @@ def _needles(
             life,
             hours,
             f"{cage.designation}: 1e6 ({dynamic:.0f} N/{found.continuous_load:.1f} N)^"
-            f"{found.exponent:.3g}/(60 x {found.speed * 30.0 / math.pi:.0f} rpm) = {life:.0f} h",
+            f"{found.exponent:.3g}/(60 x {found.speed * 30.0 / math.pi:.0f} rpm) = "
+            f"{life_text(life)}",
             f"use {seat.larger}; or " + lower_screened(state, state.rigid_continuous, share),
         ),
         build_check(

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from cqdd_design.gearbox.life.cam import CamLife
 from cqdd_design.gearbox.life.runners import RunnerLife
+from cqdd_design.terms import life_text
 
 if TYPE_CHECKING:
     from cqdd_design.gearbox.contact.rubbing import PowerSense
@@ -174,7 +175,7 @@ class LifeResult:
             if part.limit <= 0.0
         ]
         found += [
-            f"the {part.part} would last {part.hours:.3g} h under this duty, less than the "
+            f"the {part.part} would last {life_text(part.hours, 3)} under this duty, less than the "
             f"{self.required_hours:g} h required."
             for part in self.parts
             if part.hours is not None and part.hours < self.required_hours
@@ -182,7 +183,7 @@ class LifeResult:
         if self.cam.set_hours is not None and self.cam.set_hours < self.required_hours:
             found.append(
                 f"the cam bearings {self.cam.designation} would together last "
-                f"{self.cam.set_hours:.3g} h under this duty (L10), less than the "
+                f"{life_text(self.cam.set_hours, 3)} under this duty (L10), less than the "
                 f"{self.required_hours:g} h required."
             )
         if self.cam.hours is None:
@@ -197,10 +198,10 @@ class LifeResult:
 
     def _shortfall(self, runner: RunnerLife) -> str:
         """What is short or unknown of sleeves or rollers."""
-        if not runner.unknown:
+        if runner.set_hours is not None and not runner.unknown:
             return (
                 f"the {runner.name} on {runner.designation} would together last "
-                f"{runner.set_hours:.3g} h under this duty (L10), less than the "
+                f"{life_text(runner.set_hours, 3)} under this duty (L10), less than the "
                 f"{self.required_hours:g} h required."
             )
         pv = runner.pressure_velocity

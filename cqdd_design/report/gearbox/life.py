@@ -28,7 +28,7 @@ def life_view(result: LifeResult) -> Values:
         bearings.append(("all of them", "", _bearing(cam.set_hours, required)))
     for runner in result.runners:
         together = runner.set_hours
-        lasts = "no end" if together is None else with_unit(together, "h", 3)
+        lasts = _hours(together)
         bearings.append(
             (
                 f"{runner.designation or 'plain'}, all {runner.name}",
@@ -70,9 +70,7 @@ def _bearing(hours: float | None, required: float) -> Judged:
 
 
 def _hours(hours: float | None) -> str:
-    if hours is None:
-        return "no end"
-    return "under an hour" if hours < 1.0 else with_unit(hours, "h", 3)
+    return "no end" if hours is None else with_unit(hours, "h", 3)
 
 
 def _row(part: PartLife, required: float) -> tuple[str, str, str, str, Judged, str]:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+from cqdd_design.terms import hardly
+
 MINUS = "\u2212"
 THIN = "\u202f"
 TIMES = "\u00d7"
@@ -57,7 +59,7 @@ def decimals(value: float, places: int) -> str:
 
 def with_unit(value: float, unit: str, digits: int = 4) -> str:
     """A number and its unit with a thin space between, none before a degree sign."""
-    shown = significant(value, digits)
+    shown = hardly(value, unit) or significant(value, digits)
     gap = "" if unit in ("", "deg") else THIN
     return f"{shown}{gap}{pretty_unit(unit)}"
 
