@@ -3,6 +3,7 @@
 * Equations as MathML, which browsers draw without a script, screen readers read, and the report has
   too. The converter is docutils' own, so that no package more is needed.
 * Indices and powers of running text set as such: ``R_w`` and ``F^0.9``, as Markdown has them.
+* Keys in tables that may be broken, and options that may not.
 * Pages whose text stands elsewhere in the repository, and links that lead out of `docs/`.
 * Contents whose captions have a level.
 * Files of the gallery's designs, where `tools/site.py` has exported them.
@@ -37,6 +38,10 @@ _SUNK = re.compile(
     r"_(?P<low>[^\W_²³¹⁰-⁹]+)(?![^\W²³¹⁰-⁹]|\.\w)"
     r"|\^(?:\((?P<share>-?[\w./]+)\)|(?P<high>-?\w+(?:\.\d+)?))"
 )
+_PIECES = re.compile(r"(?<=\w[._])(?=\w)")
+"""Where a key may be broken."""
+_OPTION = re.compile(r"(<[^>]*>)|(?<![\w-])(--[a-z][a-z0-9-]*)")
+"""Tags, which are left alone, and options."""
 _AS_IT_IS = (nodes.literal, nodes.FixedTextElement, nodes.math, nodes.raw, nodes.title)
 _LINK = re.compile(r"\]\((?!https?://|#)([^)#\s]+)(#[^)\s]*)?\)")
 
@@ -83,6 +88,18 @@ def symbols(text: str) -> list[nodes.Node]:
     return [*found, nodes.Text(text[at:])]
 
 
+def breakable(_: Sphinx, tree: nodes.document) -> None:
+    """Keys in tables may be broken behind a dot or an underscore: words beside have room."""
+    for cell in tree.findall(nodes.entry):
+        for code in cell.findall(nodes.literal):
+            pieces = [one for one in _PIECES.split(code.astext()) if one]
+            code.children.clear()
+            for piece in pieces:
+                if code.children:
+                    code += nodes.raw("", "<wbr>", format="html")
+                code += nodes.Text(piece)
+
+
 def page_source(_: Sphinx, name: str, text: list[str]) -> None:
     """The text of a page as the site has it."""
     top = DOCS.parent
@@ -110,6 +127,14 @@ def _with_files(found: re.Match[str]) -> str:
     return ", ".join([found[0], *links])
 
 
+def whole_options(_: Sphinx, __: str, ___: str, context: dict[str, Any], ____: object) -> None:
+    """Options of commands stay on one line: browsers break behind each of their hyphens."""
+    if "body" in context:
+        context["body"] = _OPTION.sub(
+            lambda found: found[1] or f'<span class="whole">{found[2]}</span>', context["body"]
+        )
+
+
 def captions(_: Sphinx, __: str, ___: str, context: dict[str, Any], ____: object) -> None:
     """Captions of the contents are headings for a screen reader, which asks of which level."""
     tree = context.get("furo_navigation_tree", "")
@@ -124,6 +149,8 @@ def setup(app: Sphinx) -> dict[str, bool]:
     app.add_lexer("csv", TextLexer)
     app.connect("source-read", page_source)
     app.connect("doctree-read", set_symbols)
+    app.connect("doctree-read", breakable)
+    app.connect("html-page-context", whole_options)
     # After the theme has drawn its tree.
     app.connect("html-page-context", captions, priority=900)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

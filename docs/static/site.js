@@ -9,6 +9,9 @@ window.addEventListener("load", function () {
 });
 function reachable() {
   document.querySelectorAll(".table-wrapper, pre, .equation, p:has(> img)").forEach(function (box) {
+    // Keys of a table may be broken where there is no room for them whole.
+    box.classList.remove("tight");
+    box.classList.toggle("tight", box.matches(".table-wrapper") && box.scrollWidth > box.clientWidth);
     if (box.scrollWidth > box.clientWidth) {
       box.setAttribute("tabindex", "0");
     } else {

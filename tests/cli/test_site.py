@@ -91,6 +91,79 @@ def test_indices_and_powers_are_set(site: Path) -> None:
     assert "Z<sub>R</sub>" in theory
 
 
+@pytest.mark.deep
+def test_classes_are_not_told_how_python_makes_them(site: Path) -> None:
+    text = (site / "api.html").read_text(encoding="utf-8")
+    assert 'id="cqdd_design.Design.replacing"' in text
+    assert "__new__" not in text
+
+
+#: Boxes that are wider than the screen, what each says of it, and options on more than one line.
+_WIDE = """
+var page = frame.contentDocument, view = frame.contentWindow;
+return {
+  wide: Array.from(page.querySelectorAll(".equation, .table-wrapper, pre")).filter(function (box) {
+    return box.scrollWidth > box.clientWidth;
+  }).map(function (box) {
+    var part = box.matches(".equation") ? "::after" : "::before";
+    return [box.className.split(" ")[0] || box.tagName, view.getComputedStyle(box, part).content];
+  }),
+  broken: Array.from(page.querySelectorAll(".whole")).filter(function (one) {
+    return one.getClientRects().length > 1;
+  }).length,
+  options: page.querySelectorAll(".whole").length
+};
+"""
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize(
+    ("page", "scrolls"),
+    [
+        ("theory", set()),
+        ("actuator-model", {"table-wrapper"}),
+        ("how-to-motor", {"PRE"}),
+        ("cli", {"PRE"}),
+    ],
+)
+def test_what_is_wider_than_a_phone_says_so(
+    page: str, scrolls: set[str], site: Path, tmp_path: Path
+) -> None:
+    """Equations have lines that fit, keys of tables give way, options stay whole."""
+    here = tmp_path / "site"
+    shutil.copytree(site, here)
+    text = (here / f"{page}.html").read_text(encoding="utf-8")
+    found = read(text, here, more=_WIDE)
+    for screen in ("400 800 light", "400 800 dark"):
+        seen = found[screen]["more"]
+        assert {kind for kind, _ in seen["wide"]} == scrolls, screen
+        assert all("scrolls sideways" in said for _, said in seen["wide"]), seen["wide"]
+        assert seen["broken"] == 0
+        assert seen["options"] > 0 or page == "theory"
+    wide = found["1300 900 light"]["more"]["wide"]
+    assert [kind for kind, _ in wide if kind != "PRE"] == []
+
+
+def test_options_stay_whole_and_keys_in_tables_may_be_broken() -> None:
+    nodes = pytest.importorskip("docutils.nodes")
+    site_parts = _module("site_parts", DOCS / "site_parts.py")
+    context = {"body": '<a href="#--to">say --to, --step-schema</a> a--b <!-- --x --> --'}
+    site_parts.whole_options(None, "", "", context, None)
+    assert context["body"] == (
+        '<a href="#--to">say <span class="whole">--to</span>, '
+        '<span class="whole">--step-schema</span></a> a--b <!-- --x --> --'
+    )
+    site_parts.whole_options(None, "", "", {}, None)
+    cell, beside = nodes.entry(), nodes.literal("", "drive.thermal_limit")
+    cell += nodes.literal("", "drive.thermal_limit")
+    cell += nodes.literal("", ".count_")
+    tree = nodes.section("", cell, nodes.paragraph("", "", beside))
+    site_parts.breakable(None, tree)
+    pieces = [[one.astext() for one in code.children] for code in cell.children]
+    assert pieces == [["drive.", "<wbr>", "thermal_", "<wbr>", "limit"], [".count_"]]
+    assert len(beside.children) == 1
+
+
 def test_symbols_are_told_from_names() -> None:
     pytest.importorskip("docutils")
     site_parts = _module("site_parts", DOCS / "site_parts.py")
