@@ -238,12 +238,14 @@ def _allowables() -> str:
     from cqdd_design.gearbox.checks import allowables
     from cqdd_design.gearbox.checks.guide import CHECK_GUIDE
     from cqdd_design.gearbox.checks.guide_row import HOUSE
+    from cqdd_design.report.ink.numbers import pretty_unit
+    from cqdd_design.report.judgement.check_rows import printed
 
     rows = ["| check | rule | unit | missed | source |", "|---|---|---|---|---|"]
     for row in CHECK_GUIDE.values():
         source = row.source.replace(HOUSE, "house rule")
         missed = f"{row.severity}; {row.exception}" if row.exception else row.severity
-        cells = (f"`{row.id}`", row.formula, row.unit, missed, source)
+        cells = (f"`{row.id}`", printed(row.formula), pretty_unit(row.unit), missed, source)
         rows.append(f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |")
     bending = partial(allowables.pin_bending_limit_continuous, duty_reverses=False)
     limits = (

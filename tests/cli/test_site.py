@@ -164,6 +164,15 @@ def test_options_stay_whole_and_keys_in_tables_may_be_broken() -> None:
     assert len(beside.children) == 1
 
 
+def test_no_line_of_a_page_is_taken_for_a_comment() -> None:
+    """MyST drops lines that begin with a per cent sign: a number had lost its unit."""
+    begins = re.compile(r"(?m)^[ >*-]*(%|\+\+\+)")
+    assert begins.search("make 27\n  %. The dimensions")
+    named = ("CHANGELOG.md", "CONTRIBUTING.md", "README.md", "examples/README.md")
+    for page in (*DOCS.glob("*.md"), *(REPOSITORY / name for name in named)):
+        assert begins.search(page.read_text(encoding="utf-8")) is None, page.name
+
+
 def test_symbols_are_told_from_names() -> None:
     pytest.importorskip("docutils")
     site_parts = _module("site_parts", DOCS / "site_parts.py")
