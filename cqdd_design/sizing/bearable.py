@@ -213,12 +213,12 @@ def _strongest(hunt: Hunt, near: Found | None) -> Borne | None:
     else:
         every = (near.space.anywhere._replace(fit=hunt.fit),)
     needs = {} if near is None else near.needs
-    kinds = [kind for space in every for kind in _strong_kinds(hunt, space, needs)]
+    kinds = [kind for space in every for kind in strong_kinds(hunt, space, needs)]
     found = (_in_space(hunt, kind, needs) for kind in kinds)
     return max((one for one in found if one is not None), key=lambda one: one.least, default=None)
 
 
-def _strong_kinds(hunt: Hunt, space: Space, needs: Mapping[str, float]) -> list[Space]:
+def strong_kinds(hunt: Hunt, space: Space, needs: Mapping[str, float]) -> list[Space]:
     """A space with each of the cam bearings that bear most by a screen."""
     try:
         search = Search.of(hunt.frame(space, needs), hunt.tables)

@@ -35,6 +35,11 @@ DISC_COUNTS = (2, 3)
 """Likewise of discs: those that balance."""
 
 
+def closer(fit: Fit) -> Fit:
+    """The next closer fit of those that are tried; the closest stays."""
+    return FITS[max(FITS.index(fit) - 1, 0)]
+
+
 class Space(NamedTuple):
     """What a search by closed forms does not vary; any cam bearing where none is named.
 
