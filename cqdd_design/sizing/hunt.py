@@ -78,21 +78,6 @@ class Answer(NamedTuple):
         return self.found is None and math.isfinite(self.least)
 
 
-class Nearly(NamedTuple):
-    """A design that is short by part errors alone, and not by far.
-
-    Attributes
-    ----------
-    borne : float
-        Share of its torques that enough of its gearboxes bear.
-    had : mapping of str to float
-        Its reserves, by check.
-    """
-
-    borne: float
-    had: Mapping[str, float]
-
-
 @dataclass
 class Hunt:
     """One search to the verdict: what is learnt on the way.
@@ -119,12 +104,9 @@ class Hunt:
     borne : tuple of float, optional
         Shares of the peak and of the continuous torque that enough of the gearboxes that were
         looked at last bear, where these were too few.
-    had : mapping of str to float
-        Reserves, by check, of the design for which part errors asked for more last.
-    nearly : dict of str to Nearly
-        The last design with each cam bearing that was nearly sound.
-    sturdy : list of Found, optional
-        The strongest designs that are left to try, once they have been looked for.
+    nearly : dict of str to float
+        Share of both torques that enough of the gearboxes bore of the last design with each cam
+        bearing that part errors left short.
     lowered : bool
         Whether the motor did not hold a continuous torque that was tried.
     lowered_by : str
@@ -190,9 +172,7 @@ class Hunt:
     short_of: tuple[Check, ...] = ()
     settling: bool = False
     borne: tuple[float, float] | None = None
-    had: Mapping[str, float] = field(default_factory=dict)
-    nearly: dict[str, Nearly] = field(default_factory=dict)
-    sturdy: list[Found] | None = None
+    nearly: dict[str, float] = field(default_factory=dict)
     lowered: bool = False
     lowered_by: str = ""
     risen: int = 0

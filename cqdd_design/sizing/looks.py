@@ -356,6 +356,7 @@ def read_spread(
     if short:
         _ask_extra(hunt, machine, over)
         hunt.borne = _borne(over)
+        hunt.nearly[machine.design.reducer.cam_bearing.designation] = min(hunt.borne)
     wider = fails.get("backlash", 0) > fails["bind"] + jams and _asks_for_a_wider_ring(
         hunt, machine, drawn, quantile
     )
@@ -376,10 +377,14 @@ def _ask_extra(hunt: Hunt, machine: Machine, over: Mapping[str, float]) -> None:
     compare it with, and where bodies yield a design has more.
     """
     lines = hunt.held_against(machine)[1]
-    cam = machine.design.reducer.cam_bearing.designation
-    hunt.had = {line.id: torque_reserve(line, machine.design) for line in lines if line.id in over}
-    asked = {check: hunt.had[check] * _torque(check, ratio) for check, ratio in over.items()}
-    hunt.ask_extra(cam, {check: max(more, 1.0) for check, more in asked.items()})
+    by_id = {line.id: line for line in lines}
+    hunt.ask_extra(
+        machine.design.reducer.cam_bearing.designation,
+        {
+            check: max(torque_reserve(by_id[check], machine.design) * _torque(check, ratio), 1.0)
+            for check, ratio in over.items()
+        },
+    )
 
 
 def _borne(over: Mapping[str, float]) -> tuple[float, float]:

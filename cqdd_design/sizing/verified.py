@@ -7,7 +7,6 @@ with few gearboxes first, and choose clearances and reserves; then the whole ver
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from copy import copy
 from dataclasses import dataclass, replace
@@ -34,7 +33,6 @@ from cqdd_design.sizing.looks import (
     take,
 )
 from cqdd_design.sizing.motor_reach import refuse_weak_motor
-from cqdd_design.sizing.nearly import nearly_again, note_nearly
 from cqdd_design.sizing.refusals import TRIALS, least_margin, nothing, refused, unsettled
 from cqdd_design.sizing.result import SizingResult
 from cqdd_design.sizing.rings import finer
@@ -42,6 +40,7 @@ from cqdd_design.sizing.search import Search
 from cqdd_design.sizing.shafts import stronger_shaft
 from cqdd_design.sizing.spaces import Found, closer
 from cqdd_design.sizing.stage_tables import stage_tables
+from cqdd_design.sizing.sturdiest import strong_and_sound
 from cqdd_design.sizing.turns import cooler_gearbox, next_step, turned
 from cqdd_design.verdict import Verdict, judge
 
@@ -53,8 +52,6 @@ bearing tried that has not been looked at."""
 _FEW = 8
 """Trials in which any design that meets stated torques has to be found: where it takes more, space
 is so tight that a little more of it is the better advice."""
-_MORE = 4
-"""And more of them, where one was nearly sound."""
 _WORTH_IT = 0.99
 """Objective over a sound design's from which another is looked at instead."""
 
@@ -125,23 +122,26 @@ def searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
     """The search of `size_to_verdict`; `requirements` are those that were stated.
 
     Where the search for the best ends without a design, the first that meets everything is searched
-    for: that is what refusals name as the nearest, so whoever asks for it has to find it.
+    for, and then one of the strongest: that is what refusals name as the nearest, so whoever asks
+    for it has to find it.
     """
-    goal = hunt.goal
+    goal, began = hunt.goal, time.perf_counter()
     refuse_weak_motor(hunt.requirements, hunt.motor_row, hunt.ambient)
     try:
         return _searched(hunt, requirements)
     except SizingInfeasibleError:
-        if hunt.any_will_do or hunt.calm is None:
+        if not hunt.any_will_do and hunt.calm is not None:
+            hunt.say("searching for any design that meets everything")
+            hunt = new_hunt(requirements, hunt.say, hunt.motor, hunt.ambient, goal)
+            hunt.any_will_do = True
+            try:
+                return _searched(hunt, requirements)
+            except InfeasibleError:
+                pass
+        strong = strong_and_sound(hunt)
+        if strong is None:
             raise
-        hunt.say("searching for any design that meets everything")
-        again = new_hunt(requirements, hunt.say, hunt.motor, hunt.ambient, goal)
-        again.any_will_do = True
-        try:
-            return _searched(again, requirements)
-        except InfeasibleError:
-            pass
-        raise
+        return _verified(hunt, _result(hunt, strong[0], began), strong[1], requirements)
 
 
 def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
@@ -155,7 +155,7 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
     nearest: Verdict | None = None
     thorough = hunt.any_will_do
     sound: _Sound | None = None
-    for trial in _trials(hunt, requirements):
+    for trial in range(_FEW if hunt.any_will_do and not requirements.derived else TRIALS):
         hunt.settling = trial >= _PATIENCE
         found = None if found is None else _with_rated_bearing(hunt, found)
         if found is None:
@@ -169,7 +169,6 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
             if not asks:
                 sound = _Sound(found, hunt.requirements, hunt.fit)
             if asks or not thorough:
-                note_nearly(hunt, found)
                 less = None if _may_go_back(hunt, sound) else _less_of_it(hunt, found, trial)
                 if less is not None:
                     found = less
@@ -214,22 +213,12 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
             take(hunt, can, step, found.cam)
         except NothingWiderError:
             break
-        note_nearly(hunt, found)
         # More clearance or less torque is given to the same gearbox, reserve to another.
         same = given(hunt, found) if can is not None or step else None
         found = _again(hunt, found) if same is None else same
     if nearest is not None:
         raise refused(nearest)
     raise nothing(hunt) if found is None else unsettled(found)
-
-
-def _trials(hunt: Hunt, asked: Requirements) -> Iterator[int]:
-    """Numbers of trials, as many as a search has, which may be learnt on the way."""
-    for trial in range(TRIALS):
-        few = _FEW + (0 if hunt.sturdy is None else _MORE)
-        if hunt.any_will_do and not asked.derived and trial >= few:
-            break
-        yield trial
 
 
 def _less_of_it(hunt: Hunt, found: Found, trial: int) -> Found | None:
@@ -286,14 +275,12 @@ def _again(hunt: Hunt, found: Found) -> Found | None:
     """The search repeated with what has been learnt since.
 
     Where that leaves nothing, for less torque if none was stated: what the same gearbox bears, or
-    the strongest; else beside a design that is nearly sound.
+    the strongest.
     """
     better = lightest(hunt)
     if better is None:
         better = eased(hunt, found, MUCH)
-    if better is None:
-        better = or_weaker(hunt, lambda: lightest(hunt), found)
-    return nearly_again(hunt, lambda: lightest(hunt)) if better is None else better
+    return or_weaker(hunt, lambda: lightest(hunt), found) if better is None else better
 
 
 def _with_rated_bearing(hunt: Hunt, found: Found) -> Found:
