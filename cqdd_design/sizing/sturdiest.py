@@ -23,6 +23,7 @@ from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.looks import (
     NothingWiderError,
     clearance_needed,
+    last_look,
     look,
     read_spread,
     take,
@@ -38,6 +39,8 @@ _TURNS = 8
 """Of closed forms against the equilibrium at the strongest design."""
 _AS_STRONG = 0.97
 """Share of the most reserve that more output pins may cost."""
+_NEARLY = 0.9
+"""Share of the torques that enough of few gearboxes bear, from which all are asked."""
 _CLOSE, _MOST = 0.9, 4
 """Reserve over what part errors ask for from which a design is judged, and how many are."""
 
@@ -61,8 +64,8 @@ def strong_and_sound(hunt: Hunt) -> tuple[Found, Verdict] | None:
 def _with_clearance(hunt: Hunt, strong: Found) -> tuple[Found, Verdict] | None:
     """The same gearbox with the clearance that heat and part errors ask for, where that is a yes.
 
-    Or the strongest with that clearance, where it has no room for it. Looks at few gearboxes are
-    left out: of designs that just pass, they turn many away.
+    Or the strongest with that clearance, where it has no room for it. Few gearboxes turn away those
+    alone that are far from sound: of designs that just pass, they would turn many away.
     """
     hunt = replace(hunt, fit=strong.space.fit, extra_of={})
     found: Found | None = strong
@@ -71,6 +74,10 @@ def _with_clearance(hunt: Hunt, strong: Found) -> tuple[Found, Verdict] | None:
             break
         can, step = look(hunt, found.sized.machine)
         if can is None and step is None:
+            step = last_look(hunt, found.sized.machine)
+            if step == 0.0 and min(hunt.borne or (1.0,)) < _NEARLY:
+                break
+        if can is None and not step:
             judged = judge(found.sized.machine)
             if judged.meets == "yes":
                 return found, judged

@@ -65,6 +65,7 @@ def judging(
     monkeypatch.setattr(sturdiest, "strong_kinds", lambda *space: every(*space)[:2])
     monkeypatch.setattr(sturdiest, "judge", judge)
     monkeypatch.setattr(sturdiest, "look", lambda hunt, machine: (None, None))
+    monkeypatch.setattr(sturdiest, "last_look", lambda hunt, machine: None)
     monkeypatch.setattr(sturdiest, "read_spread", lambda *_: step)
     return seen
 
@@ -110,6 +111,20 @@ def test_one_that_jams_is_judged_again_with_more_clearance(
     assert answer is not None
     assert [clearance(one) for one in seen] == [one.hole_clearance for one in FITS[:2]]
     assert hunt.fit == FITS[0]
+
+
+@pytest.mark.parametrize(("borne", "asked"), [(0.85, False), (0.95, True)])
+def test_few_gearboxes_turn_away_what_is_far_from_sound_alone(
+    light: Found, monkeypatch: pytest.MonkeyPatch, borne: float, asked: bool
+) -> None:
+    def last_look(hunt: Hunt, machine: Machine) -> float:
+        hunt.borne = (1.0, borne)
+        return 0.0
+
+    seen = judging(monkeypatch, lambda _: "no")
+    monkeypatch.setattr(sturdiest, "last_look", last_look)
+    assert sturdiest.strong_and_sound(short(light, 0.9)) is None
+    assert bool(seen) is asked
 
 
 @pytest.mark.parametrize("share", [0.6, None])
