@@ -12,7 +12,7 @@ from cqdd_design.gearbox.checks.equilibrium import DUTY_MODEL, ENDLESS
 from cqdd_design.machine import Machine
 from cqdd_design.machine.carrying import carried_torque, carried_up_to
 from cqdd_design.results import Check, Status
-from cqdd_design.terms import hardly
+from cqdd_design.terms import life_text
 from cqdd_design.verdict.evidence import Evidence
 from cqdd_design.verdict.motor import MODEL as OPERATING
 from cqdd_design.verdict.reached import PEAK_LINES, standing_torque
@@ -59,8 +59,8 @@ class Figure:
         """In a line: ``pass  mass: 0.82 kg, 1 asked``."""
         value = f"not known ({self.missing})" if self.missing else "not known"
         if self.value is not None:
-            shown = hardly(self.value, self.unit) or f"{self.value:.4g}"
-            value = f"{shown} {self.unit}".rstrip()
+            life = self.unit == "h"
+            value = life_text(self.value) if life else f"{self.value:.4g} {self.unit}".rstrip()
         asked = "" if self.required is None else f", {self.required:.4g} asked"
         return f"{self.status:7}  {self.title}: {value}{asked}"
 

@@ -15,6 +15,7 @@ from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.report.ink.numbers import THIN, with_unit
 from cqdd_design.report.judgement.check_rows import check_row
 from cqdd_design.terms import hardly, life_text
+from cqdd_design.verdict.headline import Figure
 
 ROOT = Path(__file__).resolve().parents[2]
 SHORT = 1.178e-5
@@ -35,6 +36,14 @@ def test_longer_lives_keep_their_digits():
     assert life_text(677.25, 3) == "677 h"
     assert life_text(2.706e5) == "270600 h"
     assert with_unit(677.25, "h", 3) == f"677{THIN}h"
+
+
+@pytest.mark.parametrize(
+    ("hours", "told"), [(270631.8, "270632 h"), (677.25, "677.2 h"), (SHORT, "under 1 h")]
+)
+def test_a_figure_of_the_verdict_has_no_exponent(hours, told):
+    figure = Figure("life", "life", hours, "h", 1000.0, "pass", "duty")
+    assert figure.told == f"pass     life: {told}, 1000 asked"
 
 
 def test_terminal_and_report_tell_a_check_alike():

@@ -17,7 +17,13 @@ from cqdd_design.sizing.spaces import FITS, MATERIALS, Found, Space
 from cqdd_design.sizing.stage_tables import stage_tables
 
 ASKED = requirements_from_mapping(
-    {"ratio": 10, "peak_torque": "40 N*m", "continuous_torque": "6 N*m", "length": "20 mm"}
+    {
+        "ratio": 10,
+        "peak_torque": "40 N*m",
+        "continuous_torque": "6 N*m",
+        "length": "20 mm",
+        "disc_count": 2,
+    }
 )
 RING = "CONTACT-RING-PEAK"
 
@@ -74,7 +80,7 @@ def clearance(machine: Machine) -> float:
     return machine.design.reducer.output_pins.hole_clearance
 
 
-def test_the_strongest_are_judged_with_less_clearance_one_for_each_bearing(
+def test_the_strongest_are_judged_with_less_clearance_first(
     light: Found, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     hunt = short(light, 0.9)
@@ -83,12 +89,30 @@ def test_the_strongest_are_judged_with_less_clearance_one_for_each_bearing(
     seen = judging(monkeypatch, lambda _: "no")
     assert sturdiest.strong_and_sound(hunt) is None
     bearings = [one.design.reducer.cam_bearing.designation for one in seen]
-    assert len(set(bearings)) == len(bearings) > 1
-    assert {clearance(one) for one in seen} == {FITS[0].hole_clearance}
+    assert bearings[::2] == bearings[1::2]
+    assert len(set(bearings)) == len(bearings) // 2 > 1
+    both = [one.hole_clearance for one in FITS[:2]]
+    assert [clearance(one) for one in seen] == both * (len(seen) // 2)
     asked = hunt.extra_of[light.cam][RING]
     reserves = [reserve(hunt, one) for one in seen]
     assert reserves[0] == max(reserves) > 1.1 * asked
     assert min(reserves) > 0.89 * asked
+    assert hunt.fit == FITS[1]
+
+
+def test_what_looks_at_one_ask_for_does_not_count_for_the_next(
+    light: Found, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    hunt = short(light, 0.9)
+    hunt.fit = FITS[1]
+    seen = judging(monkeypatch, lambda _: "no")
+
+    def last_look(hunt: Hunt, machine: Machine) -> None:
+        hunt.ask_extra(machine.design.reducer.cam_bearing.designation, {RING: 100.0})
+
+    monkeypatch.setattr(sturdiest, "last_look", last_look)
+    assert sturdiest.strong_and_sound(hunt) is None
+    assert [clearance(one) for one in seen[:2]] == [one.hole_clearance for one in FITS[:2]]
 
 
 def test_the_first_that_is_sound_is_taken(light: Found, monkeypatch: pytest.MonkeyPatch) -> None:
