@@ -126,7 +126,7 @@ def _strongest(hunt: Hunt, space: Space) -> tuple[float, Found] | None:
     little, or the shaft is weak.
     """
     hunt = replace(hunt, extra_of={})
-    strong = max(_stronger(hunt, space), key=lambda one: one.reserve(hunt), default=None)
+    strong = max(stronger(hunt, space), key=lambda one: one.reserve(hunt), default=None)
     if strong is None or (reserve := strong.reserve(hunt)) < _CLOSE:
         return None
     found = strong.found(replace(hunt, usual={}), space)
@@ -135,7 +135,7 @@ def _strongest(hunt: Hunt, space: Space) -> tuple[float, Found] | None:
     return reserve, found
 
 
-def _stronger(hunt: Hunt, space: Space) -> Iterator[Strongest]:
+def stronger(hunt: Hunt, space: Space) -> Iterator[Strongest]:
     """Designs that closed forms take for the strongest, as they learn what they lack there.
 
     Half way each time: what they lack hangs on the design. Slower than `agreement.strongest`, by

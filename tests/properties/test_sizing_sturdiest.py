@@ -111,7 +111,9 @@ def test_what_looks_at_one_ask_for_does_not_count_for_the_next(
         hunt.ask_extra(machine.design.reducer.cam_bearing.designation, {RING: 100.0})
 
     monkeypatch.setattr(sturdiest, "last_look", last_look)
+    before = {cam: dict(asked) for cam, asked in hunt.extra_of.items()}
     assert sturdiest.strong_and_sound(hunt) is None
+    assert hunt.extra_of == before
     assert [clearance(one) for one in seen[:2]] == [one.hole_clearance for one in FITS[:2]]
 
 
@@ -167,6 +169,18 @@ def test_torques_that_nobody_stated_are_lowered_instead(
     hunt = short(light, 0.9)
     hunt.requirements = hunt.requirements.deriving("peak_torque")
     assert sturdiest.strong_and_sound(hunt) is None
+
+
+def test_closed_forms_learn_what_they_lack_at_the_strongest() -> None:
+    asked = {"peak_torque": "6.5 N*m", "continuous_torque": "1.1 N*m"}
+    space = {"outer_diameter": "47 mm", "length": "11 mm"}
+    takes = {RING: 5.1, "CONTACT-RING-CONTINUOUS": 5.8, "BEARING-LIFE": 3.1, "BEARING-STATIC": 2.1}
+    wanted = requirements_from_mapping({"ratio": 29, **asked, **space})
+    hunt = Hunt(wanted, None, None, lambda _: None, stage_tables(29), "mass", usual=takes)
+    tried = sturdiest.stronger(hunt, Space(2, MATERIALS[1], MATERIALS[1], FITS[3], cam="6801"))
+    reserves = [one.reserve(hunt) for one in tried]
+    assert reserves[-1] > 1.3 * reserves[0]
+    assert reserves[-1] >= 0.98 * max(reserves)
 
 
 def test_of_designs_as_strong_the_one_with_most_pins_is_taken() -> None:
