@@ -203,10 +203,13 @@ class Output:
         return progress
 
     def rounds(self) -> Callable[[str], None]:
-        """A function that tells what a search does, of which nobody knows how long it takes."""
+        """A function that tells what a search does, of which nobody knows how long it takes.
+
+        A whole sentence, with its full stop, is what it has found out: that stays on a terminal.
+        """
 
         def tell(text: str) -> None:
-            if (bar := self._on_terminal()) is not None:
+            if not text.endswith(".") and (bar := self._on_terminal()) is not None:
                 bar.round(text)
             else:
                 self.note(text)

@@ -109,7 +109,10 @@ def size_or_nearest(
     ambient: float | None = None,
     goal: Goal = "mass",
 ) -> VerifiedDesign:
-    """As :func:`.verified.size_to_verdict`; a refusal says which requirements would fit."""
+    """As :func:`.verified.size_to_verdict`; a refusal says which requirements would fit.
+
+    That it is refused, and why, is told as a whole sentence before those are looked for.
+    """
     hunt = new_hunt(requirements, progress, motor, ambient, goal)
     asked = hunt.requirements
     try:
@@ -128,16 +131,22 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
     """
     asked = hunt.requirements
     less = _Way(hunt, None, refusal)
-    if PEAK not in asked.derived and not asked.load_cases:
+    stated = PEAK not in asked.derived and not asked.load_cases
+    if stated or not less.hopeless:
+        # The ways out take minutes; whoever knows enough need not wait for them.
+        hunt.say(f"{refusal.message.rstrip('.')}.")
+    if stated:
         hunt.say("looking for the torques that fit")
         less = _less_torque(hunt, refusal)
     ways, needed, still = [], {}, {}
     most = lasting = ratio = None
     if less.found is not None:
+        hunt.say(f"What fits at least: {_torques(less.found)}.")
         hunt.say("looking for more torque that still fits")
-        fits = _more_again(hunt, less.found, refusal).sizing.design.requirements
+        more = _more_again(hunt, less.found, refusal)
+        fits = more.sizing.design.requirements
         most, lasting = fits.peak_torque, fits.continuous_torque
-        ways.append(f"peak_torque {most:g} N*m with continuous_torque {lasting:g} N*m")
+        ways.append(_torques(more))
     if isinstance(refusal, MotorShortError):
         if PEAK_LINE in refusal.binding:
             hunt.say("looking for the least ratio that fits")
@@ -174,6 +183,14 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
         outer_diameter_needed=needed.get("outer_diameter"),
         length_needed=needed.get("length"),
         ratio_needed=ratio,
+    )
+
+
+def _torques(found: VerifiedDesign) -> str:
+    fits = found.sizing.design.requirements
+    return (
+        f"peak_torque {fits.peak_torque:g} N*m with continuous_torque "
+        f"{fits.continuous_torque:g} N*m"
     )
 
 

@@ -115,6 +115,21 @@ def test_quiet_shows_no_bar(monkeypatch):
     assert shown.getvalue() == ""
 
 
+def test_what_a_search_has_found_out_stays(monkeypatch):
+    """A sentence has a line of its own, whole; the bar is drawn anew below it."""
+    shown = Terminal()
+    monkeypatch.setattr(sys, "stderr", shown)
+    tell = Output("size", as_json=False, quiet=False).rounds()
+    sentence = "20 N*m " * 20 + "do not fit."
+    tell("searching")
+    tell(sentence)
+    tell("looking for the torques that fit")
+    before, _, after = shown.getvalue().partition(f"{sentence}\n")
+    assert before.endswith("\r\x1b[K")
+    assert after.startswith("\r\x1b[K[")
+    assert "looking for the torques" in after
+
+
 def test_elsewhere_there_are_plain_lines(monkeypatch):
     told = io.StringIO()
     monkeypatch.setattr(sys, "stderr", told)

@@ -28,7 +28,15 @@ def found(**asked):
     return SimpleNamespace(sizing=SimpleNamespace(design=design))
 
 
-def said(monkeypatch, bears, verdict, given=ASKED, first=("BEARING-STATIC",), length="8 mm"):
+def said(
+    monkeypatch,
+    bears,
+    verdict,
+    given=ASKED,
+    first=("BEARING-STATIC",),
+    length="8 mm",
+    progress=lambda _: None,
+):
     """The refusal of a search that fails at first, with what bears and passes by length."""
     asked = requirements_from_mapping({**given, "length": length})
     tried = []
@@ -54,8 +62,32 @@ def said(monkeypatch, bears, verdict, given=ASKED, first=("BEARING-STATIC",), le
         lambda hunt, **_: [sound] if bears(1e3 * hunt.requirements.length) else [],
     )
     with pytest.raises(SizingInfeasibleError) as caught:
-        nearest.size_or_nearest(asked)
+        nearest.size_or_nearest(asked, progress)
     return caught.value, tried
+
+
+def test_that_it_does_not_fit_is_told_before_what_would_is_looked_for(monkeypatch):
+    """The ways out take minutes: each sentence, in which nothing is left open, as it is known."""
+    told = []
+    torques = found(peak_torque=15.0, continuous_torque=5.0)
+    said(monkeypatch, lambda length: length >= 13.2, lambda *_: torques, progress=told.append)
+    assert told == [
+        "it does not fit.",
+        "looking for the torques that fit",
+        "What fits at least: peak_torque 15 N*m with continuous_torque 5 N*m.",
+        "looking for more torque that still fits",
+        "looking for the least length that fits, up to 20 mm",
+    ]
+
+
+def test_where_nothing_is_looked_for_it_is_told_once(monkeypatch):
+    told, given = [], {"ratio": 16}
+    error, tried = said(
+        monkeypatch, lambda _: True, None, given, ("THERMAL-RISE",), progress=told.append
+    )
+    assert tried == ["first"]
+    assert told == []
+    assert error.message.startswith("it does not fit.")
 
 
 def test_torques_and_the_least_length_are_told(monkeypatch):
