@@ -58,8 +58,8 @@ class _Column(NamedTuple):
 
 def duty_template() -> str:
     """A short duty to fill in, as text of a CSV file: a step of a knee."""
-    rows = ((0.0, 5, 0.5), (0.1, 30, 1.0), (0.3, 22, -2.0), (0.5, -4, -3.5), (0.7, -6, 4.0))
-    lines = [f"{t:g},{torque:g},{speed:g}" for t, torque, speed in (*rows, (1.0, 5, 0.5))]
+    rows = ((0.0, 1, 0.5), (0.1, 6, 1.0), (0.3, 4.5, -2.0), (0.5, -1, -3.5), (0.7, -1.5, 4.0))
+    lines = [f"{t:g},{torque:g},{speed:g}" for t, torque, speed in (*rows, (1.0, 1, 0.5))]
     return "\n".join([*_TEMPLATE_HEAD, "time [s],torque [N*m],speed [rad/s]", *lines, ""])
 
 

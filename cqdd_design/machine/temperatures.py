@@ -10,6 +10,7 @@ import numpy as np
 
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.catalog.motors import COPPER_REFERENCE
+from cqdd_design.design.duty_log import DutyLog
 from cqdd_design.errors import ContactError, DesignError, GeometryError
 from cqdd_design.gearbox.checks.allowables import BINDING_OVERLAP, GREASE_MOST, HOUSING_MOST
 from cqdd_design.gearbox.checks.heat import (
@@ -208,7 +209,11 @@ class MachineTemperatures:
     def undisturbed(self) -> MachineTemperatures:
         """Where parts would settle if they went on losing what they do as drawn."""
         steady = self.network.steady(self.as_drawn.heat)
-        return replace(self, duty=self.as_drawn, steady=steady)
+        found = replace(self, duty=self.as_drawn, steady=steady)
+        log = self.machine.design.requirements.duty_log
+        if self.cycle is None or log is None:
+            return found
+        return replace(found, cycle=_cycle(self.machine, self.network, log, COPPER_REFERENCE))
 
     @cached_property
     def lacking_clearance(self) -> float:
@@ -300,8 +305,13 @@ def machine_temperatures(machine: Machine, *, duty: bool = True) -> MachineTempe
         found = replace(found, cold=why)
     if log is None:
         return found
-    steps, heats, _ = logged_heat(warm, log, magnets)
-    return replace(found, cycle=WarmCycle(np.cumsum(steps), settled_cycle(network, steps, heats)))
+    return replace(found, cycle=_cycle(warm, network, log, magnets))
+
+
+def _cycle(machine: Machine, network: ThermalNetwork, log: DutyLog, magnets: float) -> WarmCycle:
+    """A duty over time once its cycles repeat, of parts that lose what they do in a state."""
+    steps, heats, _ = logged_heat(machine, log, magnets)
+    return WarmCycle(np.cumsum(steps), settled_cycle(network, steps, heats))
 
 
 def heat_checks(found: MachineTemperatures) -> tuple[Check, ...]:

@@ -59,6 +59,10 @@ def or_weaker(
     first = bearable(hunt, None) if near is None else Borne(math.inf, math.inf)
     if first.least < _CLOSE:
         hunt.strongest = first.cam
+    if near is None and first.least < _CERTAIN and (least := _of_the_duty(hunt.requirements)):
+        most, hunt.requirements = hunt.requirements, least
+        found = search()
+        return None if found is None else _more_again(hunt, search, found, most)
     too_much: Requirements | None = None
     for turn in range(_TURNS):
         hopeless = turn == 0 and first.least < _CERTAIN
@@ -87,6 +91,12 @@ def or_weaker(
             hunt.lowered, hunt.lowered_by = True, ""
         hunt.requirements = weaker(hunt.requirements, peak, lasting)
     return None
+
+
+def _of_the_duty(asked: Requirements) -> Requirements | None:
+    """With no more peak torque than the duty has: that is stated, and is not to be lowered."""
+    greatest = max((abs(one.torque) for one in asked.load_cases), default=math.inf)
+    return asked.unchecked_copy({PEAK: greatest}) if greatest < asked.peak_torque else None
 
 
 def _more_again(

@@ -18,9 +18,14 @@ from numpy.typing import NDArray
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.design import Requirements
 from cqdd_design.errors import ContactError, DesignError
+from cqdd_design.gearbox.checks.heat import cooling_remedy
 from cqdd_design.gearbox.tolerance.run import BLOCK, FIRST, ToleranceResult
 from cqdd_design.machine import Machine
-from cqdd_design.machine.temperatures import MachineTemperatures, judged_temperatures
+from cqdd_design.machine.temperatures import (
+    MachineTemperatures,
+    heat_checks,
+    judged_temperatures,
+)
 from cqdd_design.results import Check
 from cqdd_design.sizing.able import CONTINUOUS, PEAK, cooler, what_it_can
 from cqdd_design.sizing.bearable import LASTING, weaker
@@ -55,6 +60,8 @@ _LOOKS = 12
 _FAR_SHORT = {"MOTOR-PEAK": (PEAK, 0.7), "MOTOR-CONTINUOUS": (CONTINUOUS, 0.5)}
 """Torques, and margins of a motor's lines that no other gearbox brings to 1: one with pins on
 needles loses some 10 % of a peak torque instead of some 30, and warms the winding less."""
+_TOO_HOT = 0.9
+"""Margin of the heat of a duty, which nothing but a gearbox that loses less brings to 1."""
 
 
 class NothingWiderError(Exception):
@@ -94,15 +101,19 @@ def learn(hunt: Hunt, found: Found) -> bool:
 def motor_far_short(hunt: Hunt, machine: Machine, least: float = 0.0) -> tuple[Check, ...]:
     """Lines of stated torques of which the motor is too far short for another gearbox to help.
 
+    Under a duty its heat stands for the continuous torque.
+
     Parameters
     ----------
     least : float
         Margin that they have to have at least, of a gearbox that loses as little as any.
     """
-    free = hunt.requirements.derived
-    if free >= {PEAK, CONTINUOUS}:
+    free, duty = hunt.requirements.derived, bool(hunt.requirements.load_cases)
+    if free >= {PEAK, CONTINUOUS} and not duty:
         return ()
     rigid = replace(machine, stiff=True)
+    hot = _hot_by_duty(rigid) if duty else ()
+    far = [line for line in hot if line.margin < max(_TOO_HOT, least)]
     # How a motor is cooled that is not drawn nobody knows, unless it is stated.
     cooled = machine.design.drive.thermal_resistance or not undrawn_sizes(machine.motor)
     try:
@@ -110,13 +121,25 @@ def motor_far_short(hunt: Hunt, machine: Machine, least: float = 0.0) -> tuple[C
             rigid, actuator_parameters(rigid), "", uncooled="" if cooled else "not drawn"
         )
     except DesignError:
-        return ()
-    far = []
+        return tuple(far)
     for line in lines:
         torque, near = _FAR_SHORT.get(line.id, (PEAK, 0.0))
         if line.known and line.margin < max(near, least) and torque not in free:
             far.append(line)
     return tuple(far)
+
+
+def _hot_by_duty(machine: Machine) -> tuple[Check, ...]:
+    """How warm the duty makes parts that do not press on each other: clearance is another matter.
+
+    Nothing where that is not known.
+    """
+    found = judged_temperatures(machine)[0]
+    if found is None:
+        return ()
+    lines = heat_checks(found.undisturbed)
+    remedy = cooling_remedy(duty=True)
+    return tuple(replace(one, remedy=remedy) for one in lines if one.id == HOT and one.known)
 
 
 def take(hunt: Hunt, can: Requirements | None, step: float | None, cam: str = "") -> None:

@@ -168,7 +168,7 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
         told = f"What fits, by the whole verdict: {', or '.join(ways)}."
     elif less.refusal is not None and less.refusal is not refusal:
         told = f"Less torque does not help: {_why(less.refusal)}."
-    elif isinstance(refusal, MotorShortError):
+    elif isinstance(refusal, MotorShortError) or less.hopeless:
         told = ""
     else:
         told = "No larger ring and no longer discs were found that do, by the whole verdict."

@@ -58,13 +58,7 @@ def nothing(hunt: Hunt) -> SizingInfeasibleError:
     )
     if share < 1.0:
         parts = "with what part errors take" if hunt.has_extra else "of perfect parts"
-        carried, lasting = (
-            rounded_down(share * one, 2) for one in (asked.peak_torque, asked.continuous_torque)
-        )
-        text += (
-            f"; by the contact equilibrium {parts} no more than about {carried:g} and "
-            f"{lasting:g} N*m are carried"
-        )
+        text += f"; by the contact equilibrium {parts} {_carried(asked, share)} carried"
     closer = ", or state closer [tolerances] in a design" if hunt.has_extra else ""
     bore = "" if asked.bore is None else ", ask for a smaller bore"
     return SizingInfeasibleError(
@@ -95,7 +89,18 @@ def _no_shaft(hunt: Hunt) -> SizingInfeasibleError:
     )
 
 
+def _carried(asked: Requirements, share: float) -> str:
+    if asked.load_cases:
+        return f"no more than about {100.0 * rounded_down(share, 2):.0f} % of these torques are"
+    peak, lasting = (
+        rounded_down(share * one, 2) for one in (asked.peak_torque, asked.continuous_torque)
+    )
+    return f"no more than about {peak:g} and {lasting:g} N*m are"
+
+
 def _asked(asked: Requirements) -> str:
+    if asked.load_cases:
+        return f"{asked.peak_torque:g} N*m at ratio {asked.ratio}, and the duty,"
     return (
         f"{asked.peak_torque:g} N*m at ratio {asked.ratio}, {asked.continuous_torque:g} N*m of it "
         "for ever,"
@@ -135,10 +140,13 @@ def unsettled(found: Found) -> SizingInfeasibleError:
         )
     else:
         asked = found.sized.design.requirements
+        torques, keys = f"{asked.peak_torque:g} N*m", "peak_torque"
+        if not asked.load_cases:
+            torques += f" and {asked.continuous_torque:g} N*m for ever"
+            keys += " and continuous_torque"
         why = (
             f"in {TRIALS} trials what is asked, heat and part errors went on moving the design, "
-            f"last for {asked.peak_torque:g} N*m and {asked.continuous_torque:g} N*m for ever; "
-            "state peak_torque and continuous_torque, somewhat less"
+            f"last for {torques}; state {keys}, somewhat less"
         )
     return SizingInfeasibleError(
         f"no design was found that meets everything: {why}.",

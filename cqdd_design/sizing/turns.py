@@ -51,7 +51,7 @@ def cooler_gearbox(hunt: Hunt, far: tuple[Check, ...]) -> Found:
     SizingInfeasibleError
         When the motor is as far from it with that one, or it is a peak torque.
     """
-    if hunt.goal == _COOL or {line.id for line in far} != {"MOTOR-CONTINUOUS"}:
+    if hunt.goal == _COOL or not {line.id for line in far} <= _LASTING:
         raise short_of(far)
     hunt.say("searching with efficiency as the objective, for what the motor has to hold")
     hunt.goal, hunt.pins = _COOL, (False, True) if hunt.may_roll else hunt.pins

@@ -96,22 +96,26 @@ def _of_line(name: str, title: str, line: Check) -> Figure:
 def _continuous(evidence: Evidence, by_id: dict[str, Check]) -> Figure:
     """What is held for ever.
 
-    Under a duty nothing is asked of it: the figure names the speed that it is held at, which is not
-    the duty's, and the duty's heat decides.
+    Under a duty nothing is asked of it, and the duty's heat decides: the figure names the speed
+    that it is held at, the duty's mean unless one is stated.
     """
     name, title, line = "continuous_torque", "continuous torque", by_id.get("MOTOR-CONTINUOUS")
     if line is not None:
         return _of_line(name, title, line)
     heat, actuator = by_id["THERMAL-RISE"], evidence.actuator
     asked = evidence.machine.design.requirements
+    speed, whose = asked.held_speed, "this speed of the motor"
+    if asked.continuous_speed is None:
+        speed = asked.ratio * sum(one.share * abs(one.speed) for one in asked.load_cases)
+        whose = "the duty's mean speed of the motor"
     value, alone = None, ""
     if actuator is not None:
-        value = float(held_torque(actuator, asked.held_speed / asked.ratio)[0])
+        value = float(held_torque(actuator, speed / asked.ratio)[0])
         alone = "" if value > 0.0 else ": friction alone heats the winding too much there"
-    title += f" at {asked.held_speed * _RPM:.0f} rpm"
+    title += f" at {speed * _RPM:.0f} rpm"
     basis = (
-        f"{OPERATING}, for ever at this speed of the motor{alone}; not asked for, the duty's heat "
-        "decides, see the temperature"
+        f"{OPERATING}, for ever at {whose}{alone}; not asked for, the duty's heat decides, see the "
+        "temperature"
     )
     return Figure(name, title, value, "N*m", None, heat.status, basis)
 

@@ -139,3 +139,30 @@ def test_a_sized_design_finds_its_duty_from_its_own_folder(cqdd, tmp_path):
     told = cqdd("analyse", "designs/sized-10.toml", "--angles", "8", "--json").document
     assert told["results"]["duty"]["rows"] == 5
     assert told["results"]["life"]["required_hours"] == 500.0
+
+
+@pytest.mark.deep
+def test_the_template_of_a_duty_is_sized_to_a_yes(cqdd):
+    """As whoever tries it first does; and what `check` then says is the same."""
+    assert cqdd("new", "duty").code == 0
+    sized = cqdd("size", "--ratio", "10", "--duty", "duty.csv", "--out", "knee.toml", "--json")
+    assert sized.code == 0, sized.err
+    judged = cqdd("check", "knee.toml", "--json")
+    assert judged.code == 0
+    one, other = (done.document["results"]["verdict"] for done in (sized, judged))
+    assert one["meets"] == other["meets"] == "yes"
+    assert one["headline"] == other["headline"]
+
+
+@pytest.mark.deep
+def test_a_duty_that_is_too_much_for_the_motor_is_told_as_that(cqdd, tmp_path):
+    """At once, and not as what a gearbox of that space bears."""
+    rows = "0,5,0.5\n0.1,30,1\n0.3,22,-2\n0.5,-4,-3.5\n0.7,-6,4\n1,5,0.5\n"
+    (tmp_path / "heavy.csv").write_text(f"{HEAD}\n{rows}")
+    done = cqdd("size", "--ratio", "10", "--duty", "heavy.csv", "--json")
+    assert done.code == 3
+    error = done.document["error"]
+    assert error["details"]["binding"] == ["THERMAL-RISE"]
+    assert "lower torques or speeds of the duty" in error["message"]
+    assert "No larger ring" not in error["message"]
+    assert "pitting" not in error["message"]

@@ -125,7 +125,7 @@ def test_corner_points_far_apart_are_no_gap(tmp_path):
 def test_the_template_is_a_duty(tmp_path):
     log = read_duty(written(tmp_path, duty_template()))
     assert log.cycle_time == 1.0
-    assert log.figures.torque_peak == 30.0
+    assert log.figures.torque_peak == 6.0
     assert log.figures.energy_returned > 0.0 < log.figures.energy_delivered
 
 

@@ -1,5 +1,7 @@
 """What mere chance finds, sizing does not refuse."""
 
+import re
+
 import numpy as np
 import pytest
 from brute_search import Space, strongest
@@ -7,8 +9,10 @@ from brute_search import Space, strongest
 from cqdd_design.design import requirements_from_mapping
 from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.kinds import lightest
+from cqdd_design.sizing.refusals import nothing
 from cqdd_design.sizing.stage_tables import stage_tables
 
+SMALL = {"ratio": 10, "peak_torque": "30 N*m", "outer_diameter": "45 mm", "length": "10 mm"}
 SOFT, HARD = "AISI 4140 Q&T 540C", "AISI 52100 / 100Cr6 hardened"
 SPACES = [
     Space(16, 50e-3, 18e-3, 2, SOFT, 20.0, 2.0, 500.0),
@@ -35,3 +39,24 @@ def test_what_chance_finds_is_not_refused(space):
     assert design.requirements.peak_torque == pytest.approx(asked.peak_torque)
     assert design.reducer.pack_length <= space.length + 1e-9
     assert design.reducer.ring.outer_diameter <= space.outer_diameter + 1e-9
+
+
+def refused(**asked):
+    requirements = requirements_from_mapping({**SMALL, **asked})
+    return nothing(Hunt(requirements, None, None, lambda _: None, stage_tables(10), "mass"))
+
+
+def test_a_refusal_speaks_of_what_was_asked():
+    """Under a duty of its torques, and of no continuous one, of which nobody asks anything."""
+    stated = refused(continuous_torque="3 N*m")
+    peak, lasting = re.search(
+        r"about ([\d.]+) and ([\d.]+) N\*m are carried", stated.message
+    ).groups()
+    assert stated.message.startswith("30 N*m at ratio 10, 3 N*m of it for ever, do not fit in")
+    assert float(lasting) == pytest.approx(0.1 * float(peak), rel=0.1)
+    under = refused(duty=[{"torque": "20 N*m", "speed": "2 rad/s", "share": 0.5}])
+    assert under.message.startswith("30 N*m at ratio 10, and the duty, do not fit in a 45 mm ring")
+    share = float(re.search(r"about (\d+) % of these torques are carried", under.message)[1])
+    assert under.most_torque == pytest.approx(0.3 * share, rel=0.04)
+    assert 1.0 < share < 100.0
+    assert "for ever" not in under.message

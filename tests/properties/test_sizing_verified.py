@@ -25,9 +25,10 @@ from cqdd_design.errors import InfeasibleError
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.temperatures import judged_temperatures
+from cqdd_design.results import Check
 from cqdd_design.sizing.able import HELD_SPEED, cooler, first_guess, what_it_can
 from cqdd_design.sizing.agreement import RING, agreed, settled, tightest
-from cqdd_design.sizing.bearable import or_weaker, weaker
+from cqdd_design.sizing.bearable import Borne, or_weaker, weaker
 from cqdd_design.sizing.eased import eased
 from cqdd_design.sizing.exact import exact_checks, shortfalls
 from cqdd_design.sizing.finish import torque_reserve
@@ -234,6 +235,31 @@ def test_a_motor_that_no_gearbox_makes_strong_enough_ends_the_search(
     assert caught.value.binding == (far[0].id,)
 
 
+def test_a_duty_that_heats_a_motor_far_too_much_ends_the_search(machine: Machine) -> None:
+    """Whatever torques nobody stated; by what parts lose that do not press on each other."""
+
+    def under(torque: float, hole: float) -> Machine:
+        duty = [{"torque": torque, "speed": 2.0, "share": 1.0}]
+        wider = {"requirements.duty": duty, "reducer.output_pins.hole_clearance": hole}
+        return replace(machine.changed(wider), stiff=True)
+
+    def short(torque: float, hole: float) -> tuple[Check, ...]:
+        other = under(torque, hole)
+        stated = other.design.requirements.deriving("peak_torque", "continuous_torque")
+        hunt = Hunt(stated, None, None, lambda _: None, stage_tables(10), "mass")
+        return motor_far_short(hunt, other)
+
+    assert short(8.0, 60e-6) == ()
+    (hot,) = short(25.0, 60e-6)
+    assert hot.id == "THERMAL-RISE"
+    assert hot.remedy.endswith("lower torques or speeds of the duty, or friction")
+    assert hot.margin < 0.6
+    assert [one.id for one in short(15.0, 60e-6)] == ["THERMAL-RISE"]
+    # What parts add that press on each other asks for clearance, not for another motor.
+    assert judged_temperatures(under(5.0, 2e-6))[1][0].margin < 0.2
+    assert short(5.0, 2e-6) == ()
+
+
 def test_a_motor_far_from_holding_a_torque_gets_a_gearbox_that_loses_less(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -256,6 +282,9 @@ def test_a_motor_far_from_holding_a_torque_gets_a_gearbox_that_loses_less(
     with pytest.raises(SizingInfeasibleError) as refused:
         cooler_gearbox(hunt, (told,))
     assert refused.value.most_lasting_torque is None
+    # The heat of a duty stands for the torque.
+    hot = SimpleNamespace(**{**vars(told), "id": "THERMAL-RISE"})
+    assert cooler_gearbox(hunt_of_what_is_assumed(), (hot,)) is machines
     held = SimpleNamespace(**{**vars(told), "value": 1.5})
     short = (held,)
     with pytest.raises(SizingInfeasibleError) as refused:
@@ -377,6 +406,32 @@ def test_only_what_was_not_stated_grows_weaker() -> None:
     assert tiny.continuous_torque == tiny.peak_torque
     assert weaker(asked(continuous_torque="5 N*m"), 0.5, 0.5).continuous_torque == 5.0
     assert weaker(asked(peak_torque="40 N*m"), 0.5, 0.5).peak_torque == 40.0
+
+
+@pytest.mark.parametrize(("bears", "least"), [(45.0, 43.0), (29.0, None)])
+def test_a_peak_that_nobody_stated_is_no_less_than_the_duty_has(
+    monkeypatch: pytest.MonkeyPatch, bears: float, least: float | None
+) -> None:
+    """What the duty asks is not lowered with it; and what is borne between is found again."""
+    duty = [{"torque": "-30 N*m", "speed": "2 rad/s", "share": 0.5}]
+    guess = first_guess(asked(duty=duty), None)
+    hunt = replace(hunt_of_what_is_assumed(), requirements=guess)
+    monkeypatch.setattr("cqdd_design.sizing.bearable.bearable", lambda *_: Borne(1.2, 0.6))
+    tried = []
+
+    def search() -> object | None:
+        tried.append(hunt.requirements.peak_torque)
+        return SimpleNamespace() if tried[-1] <= bears else None
+
+    found = or_weaker(hunt, search)  # type: ignore[arg-type]
+    assert tried[0] == 30.0
+    if least is None:
+        assert found is None
+        assert tried == [30.0]
+    else:
+        assert found is not None
+        assert least < hunt.requirements.peak_torque <= bears
+    assert guess.peak_torque > 1.2 * bears
 
 
 @pytest.mark.deep

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,10 +17,12 @@ from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.thermal import continuous_current
 from cqdd_design.catalog.motors import WINDING_MOST
 from cqdd_design.design import load_design
+from cqdd_design.design.duty_file import read_duty
 from cqdd_design.errors import ContactError
 from cqdd_design.gearbox.checks.allowables import BINDING_OVERLAP
 from cqdd_design.gearbox.contact.rubbing import ContactFriction
 from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
+from cqdd_design.gearbox.heat.cycle import settled_cycle
 from cqdd_design.gearbox.heat.expansion import PartTemperatures
 from cqdd_design.gearbox.heat.network import Heat
 from cqdd_design.gearbox.losses.swept import SWEEP_ANGLES
@@ -286,6 +289,38 @@ def test_a_duty_heats_as_its_mean(machine: Machine) -> None:
     assert rest.as_drawn.current_squared < 0.55 * whole.as_drawn.current_squared
     alone = machine_temperatures(other, duty=False)
     assert alone.steady == pytest.approx(whole.steady, rel=1e-12)
+
+
+@pytest.mark.parametrize("watts", [10.0, 1000.0])
+def test_a_cycle_settles_however_hot_it_is(machine: Machine, watts: float) -> None:
+    """Its mean is that of its mean heat; surfaces of 1700 deg C went to and fro in whole steps."""
+    network, steps = cooled_network(machine), np.array([1.0, 2.0, 1.0])
+    fixed, none = np.zeros((3, len(NODES))), np.zeros((3, len(NODES)))
+    fixed[:, NODES.index("winding")] = watts * np.array([2.0, 0.5, 1.0])
+    most = np.full(len(NODES), np.inf)
+    found = settled_cycle(network, steps, Heat(fixed, none, most))
+    mean = steps @ (0.5 * (found + np.roll(found, 1, axis=0))) / steps.sum()
+    steady = network.steady(Heat(steps @ fixed / steps.sum(), none[0], most))
+    # Within a step it is no straight line.
+    assert mean == pytest.approx(steady, rel=2e-3)
+    assert np.ptp(found[:, NODES.index("winding")]) > 0.02 * watts
+
+
+def test_a_cycle_of_parts_that_do_not_press_is_their_own(machine: Machine, tmp_path: Path) -> None:
+    """Where parts run away from what they lose as drawn, its winding is not that of burnt ones."""
+    (tmp_path / "steady.csv").write_text("t [s],torque [N*m],speed [rad/s]\n0,8,2\n1,8,2\n2,8,2\n")
+    log = read_duty(tmp_path / "steady.csv")
+    given = machine.given
+    logged = given.replacing({"requirements.duty_file": "steady.csv"}).with_duty_log(log)
+    steady = {"requirements.duty": [{"torque": 8.0, "speed": 2.0, "share": 1.0}]}
+    found = machine_temperatures(replace(resolve(logged), stiff=True))
+    assert found.cycle is not None
+    assert found.hottest("winding") > 500.0
+    same = machine_temperatures(replace(resolve(given.replacing(steady)), stiff=True))
+    assert found.undisturbed.hottest("winding") == pytest.approx(
+        same.undisturbed.hottest("winding"), rel=1e-3
+    )
+    assert found.undisturbed.hottest("winding") < 100.0
 
 
 def test_reference_s_is_too_hot_and_binds(found: MachineTemperatures) -> None:

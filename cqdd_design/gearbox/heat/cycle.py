@@ -10,6 +10,9 @@ from cqdd_design.geometry.contours import FloatArray
 
 _ROUNDS, _STILL = 200, 1e-6
 """Of the search for the temperatures that repeat, and K by which they may still move."""
+_WHOLE, _DAMPED = 3, 0.5
+"""Rounds that follow the mean at once, and the share of its move in those after them: surfaces far
+hotter than any machine may be conduct so much more that whole steps go to and fro."""
 
 
 def settled_cycle(network: ThermalNetwork, steps: FloatArray, heats: Heat) -> FloatArray:
@@ -44,7 +47,7 @@ def settled_cycle(network: ThermalNetwork, steps: FloatArray, heats: Heat) -> Fl
     )
     mean = network.steady(mean_heat)
     found = np.broadcast_to(mean, heats.fixed.shape)
-    for _ in range(_ROUNDS):
+    for turn in range(_ROUNDS):
         growing = np.where(mean < heats.most, mean_heat.slope, 0.0)
         kept = network.matrix(network.outward(mean)) - np.diag(growing)
         own = heats.fixed + heats.slope * np.minimum(found, heats.most)
@@ -53,7 +56,8 @@ def settled_cycle(network: ThermalNetwork, steps: FloatArray, heats: Heat) -> Fl
         moved = float(np.abs(now - found).max())
         # The mean over a step is taken by its ends, which is what the next round's heat follows.
         found, before = now, np.roll(now, 1, axis=0)
-        mean = np.asarray(steps @ (0.5 * (now + before)) / whole)
+        share = 1.0 if turn < _WHOLE else _DAMPED
+        mean = mean + share * (steps @ (0.5 * (now + before)) / whole - mean)
         if moved <= _STILL:
             return found
     raise DesignError("the temperatures of the duty's cycle do not settle.")
