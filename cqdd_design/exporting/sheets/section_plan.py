@@ -10,7 +10,7 @@ from functools import cached_property
 from itertools import combinations
 from typing import TYPE_CHECKING
 
-from cqdd_design.exporting.sheets.blocks import Block, Box, Placed, Words, stairs
+from cqdd_design.exporting.sheets.blocks import Block, Box, Placed, Row, Words, stairs
 from cqdd_design.exporting.sheets.drawing import AXIS, OUTLINE, SheetDrawing
 from cqdd_design.exporting.sheets.lettering import text_width
 from cqdd_design.exporting.sheets.profile import (
@@ -219,7 +219,7 @@ class SectionPlan:
                 seat: Seat | None = None, datum: str = "") -> None:  # fmt: skip
             low, high = (self.factor * (end - self.middle) for end in span)
             off = (centre * cmath.exp(-1j * self.shape.directions[0])).real
-            rows = seat_rows(seat) if seat and not _is_reached(seat) else ()
+            rows = self._rows(seat) if seat and not _is_reached(seat) else ()
             size = Diameter(self.factor * radius, self.factor * off, low, high, text, rows, datum)
             found.append((size, span))
 
@@ -239,6 +239,9 @@ class SectionPlan:
                 words = f"{DIA}{free_mm(2.0 * body.radius)}"
                 add(body.radius, body.centre, (body.bottom, body.top), words)
         return found
+
+    def _rows(self, seat: Seat) -> tuple[Row, ...]:
+        return seat_rows(seat, together=self.shape.facts.together)
 
     def _leaves_left(self, size: Diameter, low: float, high: float, more: int) -> bool:
         """Whether a diameter's extension lines run less through material to the left."""
@@ -302,7 +305,7 @@ class SectionPlan:
                 blocks.append(Block(target, shoulder_rows(feature), "face"))
             elif isinstance(feature, Seat) and _is_reached(feature):
                 target = self.at(0.5 * (feature.bottom + feature.top), 0.5 * feature.diameter)
-                blocks.append(Block(target, seat_rows(feature), "face"))
+                blocks.append(Block(target, self._rows(feature), "face"))
         level = max(self.reach + 5.0, self.sizes.top + 3.0)
         return stairs(blocks, level, up=True)
 
