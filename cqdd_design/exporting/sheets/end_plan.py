@@ -231,12 +231,10 @@ class EndPlan:
             spot = max(places, key=lambda c: round((self.at(c) * toward.conjugate()).real, 6))
             out = self.at(spot) / abs(self.at(spot))
             lead = f"{len(places)} \u00d7 " if len(places) > 1 else ""
-            words = (
-                Words(f"{lead}R{free_mm(radius)} on"),
-                Boxed(f"{DIA}{mm(2.0 * distance)}"),
-                *_round_row(first, places),
-            )
-            blocks.append(Block(self.at(spot) + self.factor * radius * out, (words,)))
+            # In two rows: a housing's views are as wide as A3 at the least scale has room for.
+            on = (Words(f"{lead}R{free_mm(radius)} on"), Boxed(f"{DIA}{mm(2.0 * distance)}"))
+            rows: tuple[Row, ...] = (on, _round_row(first, places))
+            blocks.append(Block(self.at(spot) + self.factor * radius * out, rows))
         return blocks
 
     def _slot_blocks(self) -> list[Block]:
