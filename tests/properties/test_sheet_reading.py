@@ -202,3 +202,18 @@ def test_the_magnet_is_on_its_shaft_before_that_is_put_in(rolling):
         first = next(step for step in order if step.startswith(f"{one}:"))
         assert first.endswith(", to begin with")
     assert len(units) == sum(one.startswith("the unit") for one in order)
+
+
+def test_a_way_through_is_no_narrower_than_it_was_asked_for():
+    """Ø8 under general tolerances may be 7.8, where `bore` is 8 mm at least."""
+    paper = load_design(ROOT / "designs" / "cqdd-10.toml")
+    for asked, limits in (("6 mm", True), (None, False)):
+        change = {} if asked is None else {"requirements.bore": asked}
+        machine = resolve(paper.replacing(change))
+        hole = 2e3 * machine.layout.shaft.bore_radius
+        texts = labels_of(machine, "eccentric shaft")
+        either = 0.1 if hole <= 6.0 else 0.2
+        assert (f"\u00d8{hole:.4g} (+{either}/0)" in texts) == limits
+        # What is wide enough in any case has no limits.
+        cover = labels_of(machine, "output cover")
+        assert not any("(+0.2/0)" in text or "(+0.3/0)" in text for text in cover)

@@ -10,6 +10,7 @@ from functools import cached_property
 from itertools import combinations
 from typing import TYPE_CHECKING
 
+from cqdd_design.catalog.fits import general_tolerance
 from cqdd_design.exporting.sheets.blocks import Block, Box, Placed, Row, Words, stairs
 from cqdd_design.exporting.sheets.drawing import AXIS, OUTLINE, SheetDrawing
 from cqdd_design.exporting.sheets.lettering import text_width
@@ -45,7 +46,7 @@ from cqdd_design.solids.features.kinds import (
     TrueFace,
     Undercut,
 )
-from cqdd_design.solids.slabs import stack_slabs
+from cqdd_design.solids.slabs import SAME, stack_slabs
 
 if TYPE_CHECKING:
     from cqdd_design.exporting.sheets.part_facts import PartFacts
@@ -236,9 +237,18 @@ class SectionPlan:
                 add(0.5 * feature.thread, 0j, span, thread_text(feature), datum=feature.datum)
         for body in self.shape.bodies:
             if not spoken_for(body, features):
-                words = f"{DIA}{free_mm(2.0 * body.radius)}"
+                words = f"{DIA}{free_mm(2.0 * body.radius)}{self._way(body)}"
                 add(body.radius, body.centre, (body.bottom, body.top), words)
         return found
+
+    def _way(self, body: Cylinder) -> str:
+        """Limits of a bore that general tolerances would let be less than what is asked for."""
+        asked, size = self.shape.facts.design.requirements.bore, 2.0 * body.radius
+        if asked is None or not body.inside or body.centre:
+            return ""
+        either = general_tolerance(size)
+        missed = size - either < asked <= size + SAME
+        return f" (+{free_mm(either)}/0)" if missed else ""
 
     def _rows(self, seat: Seat) -> tuple[Row, ...]:
         return seat_rows(seat, together=self.shape.facts.together)
