@@ -19,9 +19,10 @@ from cqdd_design.exporting.sheets.canvas import render
 from cqdd_design.exporting.sheets.cut_sheet import SECTION, draw_sheet
 from cqdd_design.exporting.sheets.drawing import SheetDrawing
 from cqdd_design.exporting.sheets.edm_readme import readme_text
-from cqdd_design.exporting.sheets.end_plan import _round_row
+from cqdd_design.exporting.sheets.end_plan import _round_row, drilled_size
 from cqdd_design.exporting.sheets.part_facts import PartFacts
 from cqdd_design.exporting.sheets.part_sheet import _fixed, draw_part
+from cqdd_design.exporting.sheets.section_plan import section_directions
 from cqdd_design.machine import resolve
 from cqdd_design.solids.features.holes import BoltCircle, TappedHole
 
@@ -217,3 +218,19 @@ def test_a_way_through_is_no_narrower_than_it_was_asked_for():
         # What is wide enough in any case has no limits.
         cover = labels_of(machine, "output cover")
         assert not any("(+0.2/0)" in text or "(+0.3/0)" in text for text in cover)
+
+
+def test_a_section_cuts_holes_through_their_axes(three, rolling):
+    """Threads 2 degrees beside the plane were cut narrower than they are, with a flat end."""
+    for machine in (three, rolling):
+        for part in machine.parts:
+            if part.source != "make" or part.exact_section is not None:
+                continue
+            facts = PartFacts(part, machine.given)
+            for direction in section_directions(facts):
+                for group in facts.holes:
+                    size = max(drilled_size(hole) for hole in group)
+                    for angle in group[0].circle.angles:
+                        across = group[0].circle.radius * abs(math.sin(angle - direction))
+                        if math.cos(angle - direction) > 0.0:
+                            assert across < 1e-6 or across > 0.5 * size, part.name
