@@ -76,7 +76,7 @@ def centring(machine: Machine) -> str:
         "centre it in the housing and the output cover on it"
     )
     zone, reading = machine.given.tolerances.output_zone, most_reading(machine)
-    within = f"within a zone of dia {_mm(zone)} mm about the ring's"
+    within = f"within a zone of \u00d8{_mm(zone)} mm about the ring's"
     stated = "tolerances.output_position, from which gearboxes are drawn"
     if off is not None and 2.0 * off <= zone:
         return f"{fit}, which alone leaves the output's axis {within} ({stated})."
@@ -90,7 +90,7 @@ def centring(machine: Machine) -> str:
     band = _seats(machine)["housing", INDICATOR_BAND]
     return (
         f"{fit}{far}. So set it: cover screws just snug, a dial test indicator fixed to the "
-        f"output's face, its stylus on the {band.name} of the housing (dia "
+        f"output's face, its stylus on the {band.name} of the housing (\u00d8"
         f"{1e3 * band.diameter:.5g}, {_mm(band.run_out)} mm true to the ring's seat). Turn the "
         f"output by hand and tap the cover until a whole turn reads {_mm(reading)} mm or less from "
         "lowest to highest; tighten crosswise and read again. The output's axis then lies "

@@ -48,6 +48,7 @@ _LEVEL = 1e-7
 """Heights closer than this are one, m."""
 _IN_POCKETS = {"ring pin", "ring roller", "ring needle cage"}
 """Parts that a ring holds in its pockets."""
+_MAGNET = "encoder magnet"
 Way = Literal["up", "down"]
 
 
@@ -109,8 +110,8 @@ def taken_apart(design: Design, parts: Sequence[Part]) -> tuple[tuple[Step, ...]
 def _bonds(things: Sequence[_Thing]) -> _Bonds:
     """Rotor and stator of a motor with what carries them, balance weights with their bell.
 
-    A stator goes with the housing that it is bonded on, pins with the ring in whose pockets they
-    stand; these may leave it, but it does not leave them.
+    A stator goes with the housing that it is bonded on, the encoder's magnet with its shaft, pins
+    with the ring in whose pockets they stand; these may leave it, but it does not leave them.
     """
     bonds: _Bonds = {}
     for host in things:
@@ -121,10 +122,10 @@ def _bonds(things: Sequence[_Thing]) -> _Bonds:
                 continue
             for guest in things:
                 name = guest.station.part.name
-                bought = name.startswith("motor ")
+                bought = name.startswith("motor ") or name == _MAGNET
                 if name == joint.to and (bought or host.station.part.name in WEIGHTS):
                     bonds.setdefault(id(host), []).append(guest)
-                    if host.station.part.name != "housing":
+                    if host.station.part.name != "housing" and name != _MAGNET:
                         bonds.setdefault(id(guest), []).append(host)
     return bonds
 

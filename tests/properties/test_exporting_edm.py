@@ -323,16 +323,16 @@ def test_seats_are_those_of_the_machine(paper):
 def test_half_grooves_of_the_ring_are_cut_with_it(paper, package):
     _, ring = (facts_of(flat, resolve(paper)) for flat in flat_parts(resolve(paper)))
     (said,) = (one for one in ring.remarks if "half grooves" in one)
-    assert said.startswith("8 half grooves dia 1.5 D8 for dowels")
-    assert "327.2727 deg, each within dia 0.01 of its place, drawn" in said
+    assert said.startswith("8 half grooves \u00d81.5 D8 for dowels")
+    assert "327.2727 deg, each within \u00d80.01 of its place, drawn" in said
     (seat,) = ring.seats
     # 72 n6 is +20 to +39 um, 1.5 D8 is +20 to +34 um.
     assert seat.shift == pytest.approx(0.25 * 59e-6)
     drawn = 1.527e-3 + 2.0 * seat.shift
-    assert said.endswith(f"drawn dia {1e3 * drawn:.4f}: the shift of the outside cuts them to dia "
-                         "1.5270.")  # fmt: skip
+    end = "the shift of the outside cuts them to \u00d81.5270."
+    assert said.endswith(f"drawn \u00d8{1e3 * drawn:.4f}: {end}")
     readme = " ".join(package["README.txt"].path.read_text(encoding="ascii").split())
-    assert said in readme
+    assert said.replace("\u00d8", "dia ") in readme
     assert "drilled" not in readme
 
 

@@ -114,12 +114,12 @@ def has_fit(texts, feature):
     )
 
 
-def has_frame(texts, value, datums, lead=""):
-    """A tolerance and its datums, in this order, one text each, a common one in one."""
-    cells = re.findall("[A-Z](?:-[A-Z])*", datums)
+def has_frame(texts, value, datums, lead="", tail="", beside=()):
+    """A tolerance, its datums, in this order, one text each, a common one in one, and a mark."""
+    cells = [*re.findall("[A-Z](?:-[A-Z])*", datums), *beside]
     for i, text in enumerate(texts):
-        found = re.fullmatch(rf"{lead}{NUMBER}", text)
-        if found and near(found[1], MM * value) and texts[i + 1 : i + 1 + len(cells)] == [*cells]:
+        found = re.fullmatch(rf"{lead}{NUMBER}{tail}", text)
+        if found and near(found[1], MM * value) and texts[i + 1 : i + 1 + len(cells)] == cells:
             return True
     return False
 
@@ -141,7 +141,7 @@ def has_roughness(texts, value):
     )
 
 
-def check_hole(texts, hole):
+def check_hole(texts, hole, beside):
     count = hole.circle.count
     lead = rf"(?:^|\s){count} \u00d7 " if count > 1 else ""
     if isinstance(hole, TappedHole):
@@ -167,7 +167,8 @@ def check_hole(texts, hole):
         assert isinstance(hole, PlainHole)
         assert has_text(texts, rf"{lead}\u00d8{NUMBER}", free(hole.diameter))
     if getattr(hole, "position", 0.0):
-        assert has_frame(texts, hole.position, hole.refers, "\u00d8")
+        tail = " CZ" if count > 1 else ""
+        assert has_frame(texts, hole.position, hole.refers, "\u00d8", tail, beside), hole
     assert has_text(texts, rf"^\u00d8{NUMBER}$", 2.0 * hole.circle.radius)
     for x, y in hole.circle.centres:
         assert any(
@@ -183,13 +184,17 @@ def check_part(part, texts):
     faces = [f for f in features if isinstance(f, Shoulder)]
     origin = next((f.height for f in faces if f.datum), part.shape.bottom)
     chamfers: dict[tuple[float, float], int] = {}
+    # Zones of one frame, and those of all, keep their places among each other (ISO 5458:2018).
+    beside = ["SIM1"] if sum(bool(getattr(f, "position", 0.0)) for f in features) > 1 else []
+    assert any(t.startswith("SIM1: zones so marked") for t in texts) == bool(beside)
     for feature in features:
         if isinstance(feature, Seat):
             assert has_fit(texts, feature), feature
             assert has_roughness(texts, feature.roughness)
             assert has_frame(texts, feature.cylindricity, "")
             if feature.position:
-                assert has_frame(texts, feature.position, feature.refers, "\u00d8"), feature
+                refers = feature.refers
+                assert has_frame(texts, feature.position, refers, "\u00d8", "", beside), feature
                 assert has_text(texts, rf"^{NUMBER}$", math.hypot(*feature.centre))
             elif feature.refers:
                 assert has_frame(texts, feature.run_out, feature.refers), feature
@@ -218,7 +223,7 @@ def check_part(part, texts):
             name = feature.designation.replace(" x ", " \u00d7 ")
             assert f"{name}-{feature.tolerance}" in texts
         elif hasattr(feature, "circle"):
-            check_hole(texts, feature)
+            check_hole(texts, feature, beside)
         if getattr(feature, "datum", ""):
             assert any(t.startswith(f"Datum {feature.datum}: ") for t in texts)
     for (width, angle), count in chamfers.items():
@@ -256,7 +261,9 @@ def test_a_wrong_value_would_be_seen(machine):
     texts = texts_of(svg_text(drawn(part, machine), ""))
     for written, instead in (
         ("\u00d822 H7 (+0.021/0)", "\u00d822 H7 (+0.021/-0.001)"),
-        ("\u00d80.018", "\u00d80.019"),
+        ("\u00d80.018 CZ", "\u00d80.019 CZ"),
+        ("\u00d80.018 CZ", "\u00d80.018"),
+        ("SIM1", ""),
         ("19.2599", "19.2598"),
         ("\u00d839", "\u00d839.1"),
     ):
@@ -350,7 +357,7 @@ def test_the_loose_cam_has_a_direction(machine):
     three = resolve(machine.given.replacing({"reducer.disc_count": 3}))
     (said,) = (note for note in notes_of(three) if "Eccentric cam pressed" in note)
     assert "lobe 3 is at 240\u00b0 from lobe 1, \u00b10.21\u00b0" in said
-    assert "axis within dia 0.012 of its place to A-B" in said
+    assert "axis within \u00d80.012 of its place to A-B" in said
 
 
 def test_no_general_size_asks_for_tenths_of_a_micrometre(machine):

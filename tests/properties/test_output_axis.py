@@ -232,8 +232,8 @@ def test_what_the_sheet_asks_for_is_what_is_drawn(deviation: float) -> None:
     assert 0.5 * reading + 0.5 * band.run_out == pytest.approx(0.5 * zone)
     said = centring(machine)
     assert f"until a whole turn reads {1e3 * reading:.4g} mm or less" in said
-    assert f"within a zone of dia {1e3 * zone:.4g} mm about the ring's" in said
-    assert f"dia {2e3 * machine.layout.housing.flange_radius:.5g}," in said
+    assert f"within a zone of \u00d8{1e3 * zone:.4g} mm about the ring's" in said
+    assert f"\u00d8{2e3 * machine.layout.housing.flange_radius:.5g}," in said
     assert said in AssemblyFacts(machine).notes()
     model = ContactModel.from_design(machine.design)
     drawn = draw_errors(model, machine.design.tolerances, 0, 0, 4000).output_axis
@@ -260,7 +260,7 @@ def test_a_zone_that_the_spigots_keep_needs_no_indicator() -> None:
     assert off is not None
     assert off < 60e-6
     assert "tap the cover" not in centring(machine)
-    assert "leaves the output's axis within a zone of dia 0.12 mm" in centring(machine)
+    assert "leaves the output's axis within a zone of \u00d80.12 mm" in centring(machine)
     assert "tap the cover" in centring(resolve(stated(0.99 * off / 2.0)))
 
 

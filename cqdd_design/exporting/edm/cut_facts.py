@@ -60,13 +60,19 @@ class Zones:
 def said(remarks: Iterable[str]) -> tuple[str, ...]:
     """Remarks, which are in capitals, as running text; axes and zones of holes keep theirs.
 
+    DIA before a size becomes its sign.
+
     Examples
     --------
     >>> said(["TURNED OVER ABOUT THE X AXIS", "HALF GROOVES DIA 1.5 D8"])
-    ('turned over about the X axis', 'half grooves dia 1.5 D8')
+    ('turned over about the X axis', 'half grooves \u00d81.5 D8')
     """
     return tuple(
-        re.sub(r"\b[dh]\d+\b|\bx(?= axis)", lambda found: found[0].upper(), one.lower())
+        re.sub(
+            r"\b[dh]\d+\b|\bx(?= axis)",
+            lambda found: found[0].upper(),
+            re.sub(r"\bdia (?=\d)", "\u00d8", one.lower()),
+        )
         for one in remarks
     )
 
@@ -130,6 +136,21 @@ class CutFacts:
     def seat_by_contour(self) -> dict[int, Seat]:
         """Seats by the number of their contour."""
         return {seat.contour: seat for seat in self.seats}
+
+    @property
+    def pockets(self) -> Seat | None:
+        """The seats of pins that the fitted contour of a ring is made of, if it is."""
+        fitted = self.flat.fitted
+        number = next(i for i, one in enumerate(self.flat.contours) if one is fitted)
+        return None if number == 0 else self.seat_by_contour.get(number)
+
+    @property
+    def profile_text(self) -> str:
+        """The zone of the contour, about where the wire puts it."""
+        told = f"zone {zone_text(self.zones.profile)} mm wide, half to either side of the contour"
+        if self.pockets is None or self.moulded:
+            return told
+        return f"{told} as it is shifted for its pockets, \u00d8{_MM * self.pockets.middle:.4f}"
 
     @property
     def moulded(self) -> str:

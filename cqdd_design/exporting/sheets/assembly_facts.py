@@ -129,9 +129,12 @@ class AssemblyFacts:
             return []
         said: list[str] = []
         keys = {one.screw: one.size for one in reaches(self.machine.design, steps)}
+        benches: set[str] = set()
         for step in reversed(steps):
             what = f"the {unit_name(step)}" if step.is_unit else _pieces(step.moved[0])
-            how = _SIDES[step.way] if said else "to begin with"
+            begun = step.unit in benches if step.unit else bool(said)
+            benches.add(step.unit)
+            how = _SIDES[step.way] if begun else "to begin with"
             bench = f"{step.unit}: " if step.unit else ""
             size = keys.get(step.moved[0].part.name)
             key = "" if size is None or step.is_unit else f", key {1e3 * size:.3g}"

@@ -30,10 +30,11 @@ from cqdd_design.exporting.edm.wire_path import segmented
 from cqdd_design.exporting.sheets.blocks import Row, Words
 from cqdd_design.exporting.sheets.canvas import Canvas, render
 from cqdd_design.exporting.sheets.drawing import AXIS, OUTLINE, SMALL, TEXT, SheetDrawing, new_sheet
-from cqdd_design.exporting.sheets.frame import SIMULTANEOUS, draw_frame
+from cqdd_design.exporting.sheets.frame import draw_frame
 from cqdd_design.exporting.sheets.lettering import text_width
+from cqdd_design.exporting.sheets.sizes import clear_stem
 from cqdd_design.exporting.sheets.title_block import SCALES
-from cqdd_design.exporting.sheets.wording import circle_row
+from cqdd_design.exporting.sheets.wording import COMBINED, SIMULTANEOUS, circle_row
 from cqdd_design.geometry.contours import Circle, as_complex
 from cqdd_design.solids.features.holes import BoltCircle
 
@@ -84,11 +85,14 @@ def _front_view(sheet: SheetDrawing, facts: CutFacts) -> None:
     sheet.text(FRONT + complex(reach + 2.4, 0.8), "X", SMALL)
     sheet.text(FRONT + complex(0.8, reach + 1.4), "Y", SMALL)
     sheet.circle(FRONT, factor * flat.reference_radius, AXIS)
-    # The line of sight of the section, below the view.
+    # The section lies right of the view with +X up and the lower face left: seen from +Y.
     for side in (-1.0, 1.0):
-        end = FRONT + side * (arm + 9.5)
-        sheet.line(end, end + side * 5.0, OUTLINE)
-        sheet.text(end + side * 2.5 - 1.2 - 5.0j, "A", 3.5)
+        begin = FRONT + side * (arm + 9.5)
+        end = begin + side * 5.0
+        sheet.line(begin, end, OUTLINE)
+        sheet.line(end, end - 5.0j)
+        sheet.triangle(end - 5.0j, -1j)
+        sheet.text(end - 1.2 + 1.5j, "A", 3.5)
     rounds = _output_holes(facts)
     if rounds:
         _holes(sheet, facts, rounds)
@@ -129,7 +133,7 @@ def _holes(sheet: SheetDrawing, facts: CutFacts, holes: list[Circle]) -> None:
         centre = FRONT + factor * complex(*hole.centre)
         target = centre + factor * hole.radius * (elbow - centre) / abs(elbow - centre)
         sheet.callout(target, elbow, words, (corner - elbow).real)
-        zone = f"\u00d8{zone_text(zones.hole_position)} CZ"
+        zone = f"\u00d8{zone_text(zones.hole_position)} {COMBINED}"
         _simultaneous(sheet, corner - 7.0j, "position", zone)
         _row(sheet, corner - 12.0j, row)
 
@@ -178,7 +182,7 @@ def _profile_callout(sheet: SheetDrawing, facts: CutFacts) -> None:
     sheet.callout(FRONT + complex(spot), elbow, words, text_width(words, TEXT) + 3.0)
     sheet.circle(elbow, 1.2)
     frame = elbow - 7.0j
-    zone = f"{zone_text(zones.profile)} CZ"
+    zone = f"{zone_text(zones.profile)} {COMBINED}"
     if _output_holes(facts):
         wide = _simultaneous(sheet, frame, "profile of a line", zone)
     else:
@@ -200,6 +204,7 @@ def _simultaneous(sheet: SheetDrawing, corner: complex, symbol: str, zone: str) 
 def _concave_radius(sheet: SheetDrawing, facts: CutFacts, reach: float) -> None:
     """Dimension the tightest arc that the wire must follow, in the lower right of the view.
 
+    Of a ring's pockets, which are seats of its pins, it is their diameter with its zone.
     It is read from the side of its centre, where nothing else stands: past the lobes of a disc,
     within the opening of a ring.
     """
@@ -215,7 +220,10 @@ def _concave_radius(sheet: SheetDrawing, facts: CutFacts, reach: float) -> None:
     off = np.abs(np.angle(middle * np.exp(1j * math.radians(50.0))))
     chosen = int(np.where(tightest, off, np.inf).argmin())
     wall = _MM * sheet.scale * complex(middle[chosen])
-    words = f"R{_MM * float(arcs.radii[chosen]):.4g}"
+    words, pockets = f"R{_MM * float(arcs.radii[chosen]):.4g}", facts.pockets
+    if pockets is not None:
+        size = f"\u00d8{_MM * pockets.diameter:.6g} {pockets.limits.zone}"
+        words = f"{facts.design.reducer.ring_tooth_count} \u00d7 {size}"
     width = text_width(words, TEXT) + 3.0
     # Within a ring it stands clear of the upright axis.
     share = max(0.35, (width + 2.0) / wall.real)
@@ -241,7 +249,9 @@ def _section(sheet: SheetDrawing, facts: CutFacts) -> None:
     title = "A-A"
     sheet.text(SECTION - 0.5 * text_width(title, 3.5) + 1j * (MOST_REACH + 24.0), title, 3.5)
     words = f"<> {facts.thickness_text}"
-    sheet.linear(left + 1j * (high + 8.0), left + 1j * high, left + wide + 1j * high, 0.0, words)
+    # Above the extension line of the largest diameter, which a lobe has that the section misses.
+    above = max(high + 8.0, factor * reach_of(flat.shape.outer) + 3.0)
+    sheet.linear(left + 1j * above, left + 1j * high, left + wide + 1j * high, 0.0, words)
     _diameters(sheet, facts, left, wide)
     datum = left + 0.5j * factor * (walls[-1] + walls[-2])
     _faces(sheet, left, datum, ground=not facts.moulded)
@@ -284,20 +294,24 @@ def _diameters(sheet: SheetDrawing, facts: CutFacts, left: complex, wide: float)
             continue
         rows += [(2.0 * float(radii.min()), "(%%c<>)"), (2.0 * float(radii.max()), "(%%c<>)")]
     right, place = left + wide, 0
-    for diameter, words in sorted(rows):
+    rows.sort()
+    for number, (diameter, words) in enumerate(rows):
         half = 0.5 * factor * diameter
         said = text_width(words.replace("%%c<>", f"\u00d8{_MM * diameter:.6g}"), TEXT)
-        if said > 2.0 * half and diameter == min(rows)[0]:
+        if said > 2.0 * half and number == 0:
             edge, base = left, left - 9.0
         else:
             edge, base = right, right + 9.0 + 8.0 * place
             place += 1
         sheet.linear(base, edge - 1j * half, edge + 1j * half, 90.0, words)
-        if (diameter == min(rows)[0] and "N7" in words) or (
-            facts.flat.label == "ring" and diameter == max(rows)[0]
+        if (number == 0 and "N7" in words) or (
+            facts.flat.label == "ring" and diameter == rows[-1][0]
         ):
-            # The letter's box stands below the words too.
-            sheet.datum(base - 1j * max(half + 2.0, 0.5 * said - 3.5), -1j, "A")
+            # The letter's box stands below the words too, and clear of the lines of larger ones.
+            low = -max(half + 2.0, 0.5 * said - 3.5)
+            passing = [-0.5 * factor * larger for larger, _ in rows[number + 1 :]]
+            stem = clear_stem(low, passing if edge is right else [])
+            sheet.datum(base + 1j * low, -1j, "A", stem)
 
 
 def _seat_words(seat: Seat | None) -> str:

@@ -188,8 +188,7 @@ def _tolerances(parts: Sequence[CutFacts]) -> list[str]:
     for facts in parts:
         zones, label = facts.zones, facts.flat.label
         said.append(
-            f"{label}: profile of the fitted contour within a zone {zone_text(zones.profile)} mm "
-            "wide, half to either side"
+            f"{label}: profile of the fitted contour within a {facts.profile_text}"
             + (
                 f"; {_holes(facts)} +-{zone_text(zones.hole_diameter)} mm, each within a zone of "
                 f"dia {zone_text(zones.hole_position)} mm about its place, to the axis of the bore."

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -13,16 +14,27 @@ from cqdd_design.exporting.sheets.blocks import (
     Box,
     Boxed,
     Placed,
+    Row,
     Words,
     stairs,
 )
 from cqdd_design.exporting.sheets.drawing import AXIS, HIDDEN, OUTLINE, SMALL, SheetDrawing
 from cqdd_design.exporting.sheets.lettering import text_width
 from cqdd_design.exporting.sheets.profile import sector, slots
-from cqdd_design.exporting.sheets.wording import DIA, circle_row, degrees, free_mm, hole_rows, mm
+from cqdd_design.exporting.sheets.wording import (
+    DIA,
+    circle_row,
+    degrees,
+    evenly,
+    free_mm,
+    hole_rows,
+    mm,
+    round_row,
+)
 from cqdd_design.geometry.contours import ArcContour, as_complex
 from cqdd_design.solids.end_view import Arc, visible_edges
 from cqdd_design.solids.features.holes import (
+    BoltCircle,
     ClearanceHole,
     Counterbore,
     FittedHole,
@@ -50,6 +62,31 @@ def drilled_size(hole: Hole) -> float:
 def is_seam(hole: Hole) -> bool:
     """Whether a hole lies half in another part: the outline has it."""
     return isinstance(hole, FittedHole) and hole.seam
+
+
+def _is_below(hole: Hole, others: Sequence[FittedHole | Counterbore]) -> bool:
+    """Whether the depths of a tapped hole run from the floor of another one on its circle."""
+    return isinstance(hole, TappedHole) and any(
+        abs(hole.mouth - end) < 1e-7 for one in others for end in _floors(one)
+    )
+
+
+def _floors(hole: FittedHole | Counterbore) -> tuple[float, ...]:
+    """Height of a blind hole's floor, m."""
+    if isinstance(hole, Counterbore):
+        return (hole.mouth - hole.depth if hole.facing == "up" else hole.mouth + hole.depth,)
+    if hole.through:
+        return ()
+    return (hole.bottom if hole.facing == "up" else hole.top,)
+
+
+def _round_row(first: complex, places: Sequence[complex]) -> Row:
+    """Where the first of several arcs stands, and how far apart they are, if evenly."""
+    start = cmath.phase(first)
+    turns = sorted((cmath.phase(one) - start) % (2.0 * math.pi) for one in places)
+    if len(places) > 1 and not evenly(BoltCircle("arcs", abs(first), tuple(turns))):
+        return (Words("from"), Boxed(degrees(start)))
+    return round_row(start, len(places))
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,7 +174,14 @@ class EndPlan:
             centre = max(centres, key=lambda c: round((c * toward.conjugate()).real, 6))
             size = max(drilled_size(hole) for hole in group)
             up = 1j if centre.imag >= 0.0 else -1j
-            rows = [row for hole in group for row in hole_rows(hole)]
+            floors = [h for h in group if isinstance(h, FittedHole | Counterbore)]
+            rows = [
+                row
+                for hole in group
+                for row in hole_rows(
+                    hole, together=self.shape.facts.together, below=_is_below(hole, floors)
+                )
+            ]
             first = (Words(f"H{number}"), *rows[0])
             hidden = [hole for hole in group if not self.shape.seen(hole) and not is_seam(hole)]
             rows = [first, *rows[1:], circle_row(group[0].circle)]
@@ -186,13 +230,11 @@ class EndPlan:
             toward = cmath.rect(1.0, math.radians(-120.0))
             spot = max(places, key=lambda c: round((self.at(c) * toward.conjugate()).real, 6))
             out = self.at(spot) / abs(self.at(spot))
-            words = (
-                Words(f"{len(places)} \u00d7 R{free_mm(radius)} on"),
-                Boxed(f"{DIA}{mm(2.0 * distance)}"),
-                Words("from"),
-                Boxed(degrees(cmath.phase(first))),
-            )
-            blocks.append(Block(self.at(spot) + self.factor * radius * out, (words,)))
+            lead = f"{len(places)} \u00d7 " if len(places) > 1 else ""
+            # In two rows: a housing's views are as wide as A3 at the least scale has room for.
+            on = (Words(f"{lead}R{free_mm(radius)} on"), Boxed(f"{DIA}{mm(2.0 * distance)}"))
+            rows: tuple[Row, ...] = (on, _round_row(first, places))
+            blocks.append(Block(self.at(spot) + self.factor * radius * out, rows))
         return blocks
 
     def _slot_blocks(self) -> list[Block]:
@@ -201,7 +243,7 @@ class EndPlan:
             return []
         width, depth = free_mm(found.width), free_mm(found.depth)
         words = f"{found.count} \u00d7 slot {width} wide, {depth} deep"
-        rows = ((Words(words), Words("from"), Boxed(degrees(cmath.phase(found.floor)))),)
+        rows = ((Words(words), *round_row(cmath.phase(found.floor), found.count)),)
         return [Block(self.at(found.floor), rows)]
 
     def _sector_blocks(self) -> list[Block]:
@@ -211,6 +253,12 @@ class EndPlan:
             return []
         words = Words(f"R{free_mm(found.inner)} inside, ends radial, {degrees(found.angle)} apart")
         return [Block(self.at(found.spot), ((words,),))]
+
+    @property
+    def has_exact(self) -> bool:
+        """Whether it says any theoretically exact dimension."""
+        rows = [row for one in self.blocks for row in one.block.rows]
+        return any(isinstance(cell, Boxed) for row in rows for cell in row)
 
     @cached_property
     def boxes(self) -> list[Box]:

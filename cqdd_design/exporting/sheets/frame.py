@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from cqdd_design.exporting.edm.cut_facts import CUT_FINISH, zone_text
+from cqdd_design.exporting.edm.cut_facts import CUT_FINISH
 from cqdd_design.exporting.edm.wire_path import contour_name, contour_size
 from cqdd_design.exporting.sheets.drawing import SMALL, SheetDrawing
 from cqdd_design.exporting.sheets.formats import LEFT
@@ -17,14 +17,13 @@ from cqdd_design.exporting.sheets.title_block import (
     draw_title_block,
     title_top,
 )
+from cqdd_design.exporting.sheets.wording import SIMULTANEOUS
 from cqdd_design.geometry.columns import has_columns
 from cqdd_design.geometry.contours import Circle
 
 if TYPE_CHECKING:
     from cqdd_design.exporting.edm.cut_facts import CutFacts
 
-SIMULTANEOUS = "SIM1"
-"""Marks the zones of a disc that hold at once (ISO 5458): its lobes and its holes."""
 _MM = 1e3
 _NOTES = complex(308.0, 280.0)
 _NOTE_WIDTH = 99.0
@@ -102,8 +101,7 @@ def _moulded_notes(facts: CutFacts) -> list[str]:
         f"{facts.flat.label}.dxf are those of the finished part.",
         _curve(facts),
         f"{facts.fit_text[1].capitalize()}.",
-        f"Profile: zone {zone_text(facts.zones.profile)} mm wide, half to either side of the "
-        "contour.",
+        f"Profile: {facts.profile_text}.",
         *(
             f"Seat \u00d8{seat}, {contour_name(seat.contour)}: bored or turned to its zone."
             for seat in facts.seats
@@ -132,8 +130,7 @@ def _cut_notes(facts: CutFacts) -> list[str]:
         f"Wire \u00d8{_MM * edm.wire_diameter:g} mm, gap {_MM * edm.spark_gap:g} mm.",
         f"Contour as written, read back and measured: {facts.fit_text[0]}.",
         f"{facts.fit_text[1].capitalize()}.",
-        f"Profile: zone {zone_text(facts.zones.profile)} mm wide, half to either side of the "
-        "contour, after the last skim cut.",
+        f"Profile: {facts.profile_text}, after the last skim cut.",
     ]
     said += [
         f"Seat \u00d8{seat}, {contour_name(seat.contour)}: the file is nominal; cut to "

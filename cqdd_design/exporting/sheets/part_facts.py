@@ -19,7 +19,7 @@ from cqdd_design.solids.features.holes import (
     PlainHole,
     TappedHole,
 )
-from cqdd_design.solids.features.kinds import Chamfer, Joint
+from cqdd_design.solids.features.kinds import Chamfer, Joint, Seat
 from cqdd_design.solids.layers import Stack, reshaped
 
 if TYPE_CHECKING:
@@ -60,6 +60,12 @@ class PartFacts:
         """Holes, those together that share a circle."""
         kinds = TappedHole | ClearanceHole | Counterbore | FittedHole | PlainHole
         return holes_by_circle([f for f in self.part.features if isinstance(f, kinds)])
+
+    @cached_property
+    def together(self) -> bool:
+        """Whether it has several positions, of circles of holes or of lobes, that hold at once."""
+        placed = FittedHole | ClearanceHole | TappedHole | Seat
+        return sum(isinstance(f, placed) and f.position > 0.0 for f in self.part.features) > 1
 
     @cached_property
     def joints(self) -> tuple[Joint, ...]:

@@ -38,7 +38,7 @@ from cqdd_design.exporting.sheets.title_block import (
     draw_title_block,
     title_top,
 )
-from cqdd_design.exporting.sheets.wording import joint_note
+from cqdd_design.exporting.sheets.wording import SIMULTANEOUS, joint_note
 
 if TYPE_CHECKING:
     from cqdd_design.exporting.sheets.part_facts import PartFacts
@@ -143,7 +143,7 @@ def draw_part(facts: PartFacts) -> SheetDrawing:
     draw_notes(
         sheet,
         corner,
-        notes(facts),
+        notes(facts, exact=plan.end is not None and plan.end.has_exact),
         width=plan.paper.title.real - corner.real - 4.0,
         height=corner.imag - BOTTOM - 2.0,
         columns=2,
@@ -152,8 +152,8 @@ def draw_part(facts: PartFacts) -> SheetDrawing:
     return sheet
 
 
-def notes(facts: PartFacts) -> list[str]:
-    """Notes of a sheet, each a sentence or two."""
+def notes(facts: PartFacts, *, exact: bool = True) -> list[str]:
+    """Notes of a sheet, each a sentence or two; `exact` where it has dimensions in boxes."""
     from cqdd_design.solids.features.kinds import AxialThread, Seat, Shoulder
 
     said = [f"{facts.part.designation[0].upper()}{facts.part.designation[1:]}."]
@@ -166,7 +166,14 @@ def notes(facts: PartFacts) -> list[str]:
     said += _insert_notes(facts.part)
     if facts.holes:
         said.append("X and Y of holes are theoretically exact; X points up in the view.")
-    said.append("Dimensions in boxes are theoretically exact (ISO 1101).")
+    if facts.together:
+        these = "circles of holes" if facts.holes else "lobes"
+        said.append(
+            f"{SIMULTANEOUS}: zones so marked hold at once (ISO 5458), so the {these} are clocked "
+            "to each other."
+        )
+    if exact:
+        said.append("Dimensions in boxes are theoretically exact (ISO 1101).")
     said.append("Lengths run from the face marked with a circle.")
     said.append("Sizes without limits of their own are rounded to 0.01 mm.")
     return said
@@ -218,7 +225,8 @@ def hole_places(facts: PartFacts) -> list[tuple[str, str, str]]:
 
 
 def _fixed(value: float) -> str:
-    return f"{round(1e3 * value, 4) + 0.0:.4f}"
+    # First to a nanometre: halves of the last figure would fall to either side of it.
+    return f"{round(round(1e3 * value, 6), 4) + 0.0:.4f}"
 
 
 def _most_rows(paper: Paper) -> int:

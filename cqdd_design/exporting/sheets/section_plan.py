@@ -10,8 +10,10 @@ from functools import cached_property
 from itertools import combinations
 from typing import TYPE_CHECKING
 
-from cqdd_design.exporting.sheets.blocks import Block, Box, Placed, Words, stairs
+from cqdd_design.catalog.fits import general_tolerance
+from cqdd_design.exporting.sheets.blocks import Block, Box, Placed, Row, Words, stairs
 from cqdd_design.exporting.sheets.drawing import AXIS, OUTLINE, SheetDrawing
+from cqdd_design.exporting.sheets.end_plan import drilled_size
 from cqdd_design.exporting.sheets.lettering import text_width
 from cqdd_design.exporting.sheets.profile import (
     Cylinder,
@@ -45,7 +47,7 @@ from cqdd_design.solids.features.kinds import (
     TrueFace,
     Undercut,
 )
-from cqdd_design.solids.slabs import stack_slabs
+from cqdd_design.solids.slabs import SAME, stack_slabs
 
 if TYPE_CHECKING:
     from cqdd_design.exporting.sheets.part_facts import PartFacts
@@ -58,7 +60,8 @@ _TITLE = 3.5
 def section_directions(facts: PartFacts) -> tuple[float, float]:
     """Directions of the two halves of the section, rad: through as many kinds of holes as can be.
 
-    A straight plane is preferred to a bent one, and one through +x to another.
+    One that cuts holes beside their axes, where they are narrower and their points flat, gives way
+    to another; then a straight plane is preferred to a bent one, and one through +x to another.
     """
     circles = [group[0].circle for group in facts.holes]
     tried = sorted({round(math.remainder(a, 2.0 * math.pi), 9) for c in circles for a in c.angles})
@@ -72,7 +75,18 @@ def section_directions(facts: PartFacts) -> tuple[float, float]:
             if any(abs(math.remainder(a - direction, 2.0 * math.pi)) < 1e-6 for a in circle.angles)
         )
 
+    def grazed_by(direction: float) -> int:
+        sizes = [max(drilled_size(hole) for hole in group) for group in facts.holes]
+        beside = [
+            cmath.rect(circle.radius, a - direction)
+            for circle, size in zip(circles, sizes, strict=True)
+            for a in circle.angles
+            if 1e-6 < circle.radius * abs(math.sin(a - direction)) < 0.5 * size
+        ]
+        return sum(place.real > 0.0 for place in beside)
+
     found = {direction: cut_by(direction) for direction in tried}
+    grazed = {end: grazed_by(end) for one in tried for end in (one, one + math.pi)}
     pairs = [(one, one + math.pi) for one in tried]
     pairs += [
         pair
@@ -86,7 +100,8 @@ def section_directions(facts: PartFacts) -> tuple[float, float]:
         near = next((found[d] for d in tried if abs(d - other) < 1e-6), cut_by(pair[1]))
         seen = len(found[pair[0]] | near)
         bend = abs(abs(math.remainder(pair[1] - pair[0], 2.0 * math.pi)) - math.pi)
-        return (-seen, round(bend, 6), round(abs(pair[0]), 6), pair[0], pair[1])
+        across = grazed[pair[0]] + grazed[pair[1]]
+        return (-seen, across, round(bend, 6), round(abs(pair[0]), 6), pair[0], pair[1])
 
     return min(pairs, key=rank)
 
@@ -219,7 +234,7 @@ class SectionPlan:
                 seat: Seat | None = None, datum: str = "") -> None:  # fmt: skip
             low, high = (self.factor * (end - self.middle) for end in span)
             off = (centre * cmath.exp(-1j * self.shape.directions[0])).real
-            rows = seat_rows(seat) if seat and not _is_reached(seat) else ()
+            rows = self._rows(seat) if seat and not _is_reached(seat) else ()
             size = Diameter(self.factor * radius, self.factor * off, low, high, text, rows, datum)
             found.append((size, span))
 
@@ -236,9 +251,21 @@ class SectionPlan:
                 add(0.5 * feature.thread, 0j, span, thread_text(feature), datum=feature.datum)
         for body in self.shape.bodies:
             if not spoken_for(body, features):
-                words = f"{DIA}{free_mm(2.0 * body.radius)}"
+                words = f"{DIA}{free_mm(2.0 * body.radius)}{self._way(body)}"
                 add(body.radius, body.centre, (body.bottom, body.top), words)
         return found
+
+    def _way(self, body: Cylinder) -> str:
+        """Limits of a bore that general tolerances would let be less than what is asked for."""
+        asked, size = self.shape.facts.design.requirements.bore, 2.0 * body.radius
+        if asked is None or not body.inside or body.centre:
+            return ""
+        either = general_tolerance(size)
+        missed = size - either < asked <= size + SAME
+        return f" (+{free_mm(either)}/0)" if missed else ""
+
+    def _rows(self, seat: Seat) -> tuple[Row, ...]:
+        return seat_rows(seat, together=self.shape.facts.together)
 
     def _leaves_left(self, size: Diameter, low: float, high: float, more: int) -> bool:
         """Whether a diameter's extension lines run less through material to the left."""
@@ -302,7 +329,7 @@ class SectionPlan:
                 blocks.append(Block(target, shoulder_rows(feature), "face"))
             elif isinstance(feature, Seat) and _is_reached(feature):
                 target = self.at(0.5 * (feature.bottom + feature.top), 0.5 * feature.diameter)
-                blocks.append(Block(target, seat_rows(feature), "face"))
+                blocks.append(Block(target, self._rows(feature), "face"))
         level = max(self.reach + 5.0, self.sizes.top + 3.0)
         return stairs(blocks, level, up=True)
 

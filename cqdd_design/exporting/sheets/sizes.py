@@ -187,7 +187,7 @@ def columns_of(
             at = size.middle - 0.5 * wide if fits else most + 4.0
             edge = size.begin if out < 0.0 else size.end
             passing = [other.low for other in ordered[place + 1 :]]
-            columns.append(Column(size, x, at, edge, _stem(size.foot, passing)))
+            columns.append(Column(size, x, at, edge, clear_stem(size.foot, passing)))
             if size.rows:
                 foot = complex(x - out * 2.6, size.middle - size.radius)
                 rows.append((Block(foot, size.rows), foot.real))
@@ -202,7 +202,7 @@ def columns_of(
     )
 
 
-def _stem(foot: float, levels: Sequence[float]) -> float:
+def clear_stem(foot: float, levels: Sequence[float]) -> float:
     """Length of a datum's stem at which no line at one of the levels runs through its box, mm."""
     stem = STEM
     for level in sorted(levels, reverse=True):

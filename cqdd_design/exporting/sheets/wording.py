@@ -34,6 +34,10 @@ if TYPE_CHECKING:
 
 _MM, _UM = 1e3, 1e6
 DIA, BY = "\u00d8", "\u00d7"
+COMBINED, SIMULTANEOUS = "CZ", "SIM1"
+"""Mark zones that keep their places among each other (ISO 5458): those of one frame, and those of
+all frames so marked. Without them every zone may turn about the datum axis by itself.
+"""
 FREE_DECIMALS = 2
 """Of millimetres, of sizes under general tolerances: what is left out is 5 um at most."""
 
@@ -109,17 +113,24 @@ def seat_text(seat: Seat) -> str:
     return fit_text(seat.diameter, seat.zone, limits_of(seat))
 
 
-def seat_rows(seat: Seat) -> tuple[Row, ...]:
-    """Surface and tolerances of form and run-out."""
+def seat_rows(seat: Seat, *, together: bool = False) -> tuple[Row, ...]:
+    """Surface and tolerances of form and run-out; `together`: with other positions of the part."""
     sign: Row = (Surface(roughness(seat.roughness) + (" ground" if seat.ground else "")),)
     cells: list[Cell] = []
     if seat.cylindricity:
         cells.append(Frame("cylindricity", mm(seat.cylindricity)))
     if seat.position:
-        cells.append(Frame("position", f"{DIA}{mm(seat.position)}", datum_cells(seat.refers)))
+        cells += _position(seat.position, 1, seat.refers, together=together)
     elif seat.run_out and seat.refers:
         cells.append(Frame("total run-out", mm(seat.run_out), datum_cells(seat.refers)))
     return (sign, tuple(cells)) if len(cells) > 1 else ((*sign, *cells),)
+
+
+def _position(zone: float, count: int, refers: str, *, together: bool) -> list[Cell]:
+    """Frame of the places of so many axes, which are one pattern."""
+    words = f"{DIA}{mm(zone)}" + (f" {COMBINED}" if count > 1 else "")
+    cells: list[Cell] = [Frame("position", words, datum_cells(refers))]
+    return [*cells, Words(SIMULTANEOUS)] if together else cells
 
 
 def thread_text(thread: AxialThread) -> str:
@@ -157,8 +168,11 @@ def groove_text(groove: Groove) -> str:
     return f"{groove.standard}: {size}, R{mm(groove.fillet)}"
 
 
-def hole_rows(hole: Hole) -> tuple[Row, ...]:
-    """What a hole is, with its position."""
+def hole_rows(hole: Hole, *, together: bool = False, below: bool = False) -> tuple[Row, ...]:
+    """What a hole is, with its position.
+
+    `together`: with other positions of the part; `below`: from the floor of another hole.
+    """
     count = hole.circle.count
     lead = f"{count} {BY} " if count > 1 else ""
     rows: list[Row] = []
@@ -170,6 +184,7 @@ def hole_rows(hole: Hole) -> tuple[Row, ...]:
         else:
             depth, drilled = free_mm(hole.thread_depth), free_mm(hole.drill_depth)
             said = f"{thread} {BY} {depth}/{drill} {BY} {drilled}"
+            said += " from the floor" if below else ""
         rows.append((Words(said),))
         if hole.countersink:
             rows.append((Words(f"countersunk {DIA}{mm(hole.countersink)} {BY} 90\u00b0"),))
@@ -189,7 +204,7 @@ def hole_rows(hole: Hole) -> tuple[Row, ...]:
         rows.append((Words(f"{lead}{DIA}{free_mm(hole.diameter)}"),))
     frame: list[Cell] = []
     if not isinstance(hole, PlainHole | Counterbore) and hole.position:
-        frame.append(Frame("position", f"{DIA}{mm(hole.position)}", datum_cells(hole.refers)))
+        frame += _position(hole.position, count, hole.refers, together=together)
     if isinstance(hole, FittedHole):
         frame.append(Surface(roughness(hole.roughness)))
     if frame:
@@ -202,10 +217,15 @@ def circle_row(circle: BoltCircle) -> Row:
     cells: list[Cell] = [Words("on"), Boxed(f"{DIA}{mm(2.0 * circle.radius)}")]
     if not evenly(circle):
         return (*cells, Words("at X and Y of the table"))
-    cells += [Words("from"), Boxed(degrees(circle.angles[0]))]
-    if circle.count > 1:
-        cells += [Words("every"), Boxed(degrees(2.0 * math.pi / circle.count))]
-    return tuple(cells)
+    return (*cells, *round_row(circle.angles[0], circle.count))
+
+
+def round_row(first: float, count: int) -> Row:
+    """In which directions (rad) things stand that are evenly spaced round the axis, in boxes."""
+    if count == 1:
+        return (Words("at"), Boxed(degrees(first)))
+    every = Boxed(degrees(2.0 * math.pi / count))
+    return (Words("from"), Boxed(degrees(first)), Words("every"), every)
 
 
 def evenly(circle: BoltCircle) -> bool:

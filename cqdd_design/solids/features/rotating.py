@@ -60,7 +60,7 @@ def _pressed_on(pack: PackLayout, position: float) -> str:
     return (
         f"light press fit, bonded over its whole bore with {ROTOR_COMPOUND.name}; turned, before "
         f"that sets, till lobe 3 is at {angle:g}\u00b0 from lobe 1, \u00b1{off:.2g}\u00b0, and its "
-        f"axis within dia {_MM * position:.3g} of its place to A-B"
+        f"axis within \u00d8{_MM * position:.3g} of its place to A-B"
     )
 
 
