@@ -110,7 +110,7 @@ def table(python: str) -> list[str]:
         capture_output=True, text=True, check=True,
     )  # fmt: skip
     lines = [
-        "| design, contact | film, µm | theirs | ratio | of which entrainment and radius | lambda "
+        "| design, contact | film, µm | theirs | ratio | of which entrainment and radius | λ "
         "| theirs | friction | theirs |",
         "|---|---|---|---|---|---|---|---|---|",
     ]
@@ -134,10 +134,10 @@ still on it. Here the contact travels: along the tooth against the sliding where
 which leaves less entrainment and a thinner film, and around the pin and its hole with the crank,
 (r_pin + r_hole)/2 where sliding alone gives (r_hole - r_pin)/2, which leaves more. It also takes
 the tooth's own radius for that of tooth and flank. The column says what these two alone make of
-the film (speed^0.7 radius^0.43), where the ratio is off 1 by more than a fifth. Its lambda at the
+the film (speed^0.7 radius^0.43), where the ratio is off 1 by more than a fifth. Its λ at the
 pins is for discs and pins as smooth as each other; ours has the shoulder screw's 1.0 µm. Its
-friction stays that of the boundary (0.11 for this grease) up to a lambda of 0.5; ours falls by
-1/(1 + lambda)² from 0.10 (Olver and Spikes 1998).
+friction stays that of the boundary (0.11 for this grease) up to a λ of 0.5; ours falls by
+1/(1 + λ)² from 0.10 (Olver and Spikes 1998).
 """
 
 

@@ -41,8 +41,8 @@ SHARES = ((1.0, 1.0, 0.2), (0.5, 1.0, 0.3), (0.25, 0.5, 0.3), (0.75, 0.25, 0.2))
 WHY = {
     "loss_W": "of S at the teeth 99 W here (88 with friction left out of the balance of forces), "
     "70 there by another law of how teeth share; pins 38 and 44, bearings and grease 11 and 6",
-    "rise_K": "its 12 W/(m2 K) hold at any rise, natural convection weakens as the rise gets small "
-    "(5 to 9 W/(m2 K) with bare metal's radiation); its area is a case round the discs, here it is "
+    "rise_K": "its 12 W/(m²·K) hold at any rise, natural convection weakens as the rise gets small "
+    "(5 to 9 W/(m²·K) with bare metal's radiation); its area is a case round the discs, here it is "
     "that of the drawn motor",
     "motor_required_Nm": "follows from the losses",
     "output_ceiling_Nm": "follows from the losses at the rated current",
@@ -169,7 +169,8 @@ def table(python: str) -> list[str] | str:
             off = value / theirs[key] - 1.0
             why = WHY[key] if abs(off) > 0.2 else ""
             lines.append(
-                f"| {name} | `{key}` | {value:.3g} | {theirs[key]:.3g} | {off:+.0%} | {why} |"
+                f"| {name} | `{key}` | {value:.3g} | {theirs[key]:.3g} "
+                f"| {100.0 * off:+.0f}\u202f% | {why} |"
             )
     return lines
 

@@ -46,7 +46,7 @@ napoleon_use_rtype = False
 napoleon_use_ivar = True
 
 # Classes are made by what reads or computes them; how Python makes them says nothing.
-autodoc_default_options = {"exclude-members": "__new__"}
+autodoc_default_options = {"exclude-members": "__new__, __init__"}
 
 html_theme = "furo"
 html_title = f"cqdd-design {release}"

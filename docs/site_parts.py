@@ -3,7 +3,9 @@
 * Equations as MathML, which browsers draw without a script, screen readers read, and the report has
   too. The converter is docutils' own, so that no package more is needed.
 * Indices and powers of running text set as such: ``R_w`` and ``F^0.9``, as Markdown has them.
-* Keys in tables that may be broken, and options that may not.
+* Keys in tables that may be broken; options, powers of ten, and numbers with their units, that
+  may not.
+* Pages that docstrings name as files, as links.
 * Pages whose text stands elsewhere in the repository, and links that lead out of `docs/`.
 * Contents whose captions have a level.
 * Files of the gallery's designs, where `tools/site.py` has exported them.
@@ -35,13 +37,19 @@ EXPORTED = DOCS / "gallery" / "files"
 
 _SUNK = re.compile(
     r"(?<![\w.])(?P<base>(?:[^\W\d_]|alpha|delta|mu|rho|sigma)['*]?)"
-    r"_(?P<low>[^\W_²³¹⁰-⁹]+)(?![^\W²³¹⁰-⁹]|\.\w)"
+    r"_(?P<low>[^\W_²³¹⁰-⁹]+(?:,(?:max|mean|min)\b)?)(?![^\W²³¹⁰-⁹]|\.\w)"
     r"|\^(?:\((?P<share>-?[\w./]+)\)|(?P<high>-?\w+(?:\.\d+)?))"
 )
 _PIECES = re.compile(r"(?<=\w[._])(?=\w)")
 """Where a key may be broken."""
-_OPTION = re.compile(r"(<[^>]*>)|(?<![\w-])(--[a-z][a-z0-9-]*)")
-"""Tags, which are left alone, and options."""
+_WHOLE = re.compile(r"(<[^>]*>)|(?<![\w-])(--[a-z][a-z0-9-]*)|(?<![\w.])(\d+(?:\.\d+)?e-\d+)\b")
+"""Tags, which are left alone, options, and numbers such as 1e-11."""
+_QUANTITY = re.compile(
+    r"(?<![\w.])(\d[\d.,]* (?:%|°C|(?:[kMGmµ]?(?:Hz|Pa|N|W|V|A|m|s|g)|rpm|arcmin|rad|K|h)"
+    r"[²³]?(?:·m+²?)?(?:/[a-zµ]+²?)?)(?![\w·]))"
+)
+"""A number with its unit."""
+_FILE = re.compile(r"\bdocs/([\w-]+)\.md\b")
 _AS_IT_IS = (nodes.literal, nodes.FixedTextElement, nodes.math, nodes.raw, nodes.title)
 _LINK = re.compile(r"\]\((?!https?://|#)([^)#\s]+)(#[^)\s]*)?\)")
 
@@ -100,6 +108,29 @@ def breakable(_: Sphinx, tree: nodes.document) -> None:
                 code += nodes.Text(piece)
 
 
+def kept_together(_: Sphinx, tree: nodes.document) -> None:
+    """A number and its unit stand on one line, but where a table has no room."""
+    for text in list(tree.findall(nodes.Text)):
+        place: Any = text
+        while place is not None and not isinstance(place, _AS_IT_IS):
+            place = place.parent
+        if place is None and _QUANTITY.search(text):
+            text.parent.replace(text, quantities(text))
+
+
+def quantities(text: str) -> list[nodes.Node]:
+    """Text with its numbers and their units as nodes of their own."""
+    return [
+        nodes.inline(one, one, classes=["quantity"]) if k % 2 else nodes.Text(one)
+        for k, one in enumerate(_QUANTITY.split(text))
+    ]
+
+
+def link_pages(_: Sphinx, __: str, ___: str, ____: object, _____: object, lines: list[str]) -> None:
+    """Pages that a docstring names as files of `docs/` are links here."""
+    lines[:] = [_FILE.sub(r":doc:`\g<0> <\1>`", line) for line in lines]
+
+
 def page_source(_: Sphinx, name: str, text: list[str]) -> None:
     """The text of a page as the site has it."""
     top = DOCS.parent
@@ -127,11 +158,12 @@ def _with_files(found: re.Match[str]) -> str:
     return ", ".join([found[0], *links])
 
 
-def whole_options(_: Sphinx, __: str, ___: str, context: dict[str, Any], ____: object) -> None:
-    """Options of commands stay on one line: browsers break behind each of their hyphens."""
+def whole_words(_: Sphinx, __: str, ___: str, context: dict[str, Any], ____: object) -> None:
+    """Options and powers of ten stay on one line: browsers break behind each of their hyphens."""
     if "body" in context:
-        context["body"] = _OPTION.sub(
-            lambda found: found[1] or f'<span class="whole">{found[2]}</span>', context["body"]
+        context["body"] = _WHOLE.sub(
+            lambda found: found[1] or f'<span class="whole">{found[2] or found[3]}</span>',
+            context["body"],
         )
 
 
@@ -150,7 +182,9 @@ def setup(app: Sphinx) -> dict[str, bool]:
     app.connect("source-read", page_source)
     app.connect("doctree-read", set_symbols)
     app.connect("doctree-read", breakable)
-    app.connect("html-page-context", whole_options)
+    app.connect("doctree-read", kept_together)
+    app.connect("autodoc-process-docstring", link_pages)
+    app.connect("html-page-context", whole_words)
     # After the theme has drawn its tree.
     app.connect("html-page-context", captions, priority=900)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -166,3 +166,19 @@ MODES: tuple[str, ...] = ("open", "voltage", "current", "torque", "impedance", "
 
 FRICTIONS: tuple[str, ...] = ("clip", "lugre")
 """Models of dry friction."""
+
+SUMMARY = (
+    ("output_torque_Nm_peak", "output torque, peak", "N*m"),
+    ("output_torque_Nm_rms", "output torque, r.m.s.", "N*m"),
+    ("output_speed_rad_per_s_peak", "output speed, peak", "rad/s"),
+    ("output_speed_rad_per_s_rms", "output speed, r.m.s.", "rad/s"),
+    ("current_A_peak", "current, peak", "A"),
+    ("current_A_rms", "current, r.m.s.", "A"),
+    ("winding_temperature_degC_peak", "winding, hottest", "degC"),
+    ("electrical_J", "energy from the drive", "J"),
+    ("external_J", "energy from outside", "J"),
+    ("dissipated_J", "energy dissipated", "J"),
+    ("stored_J", "energy stored", "J"),
+    ("residual_J", "residual of the balance", "J"),
+)
+"""Keys of a run's summary, in words, with their units."""

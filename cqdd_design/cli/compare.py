@@ -60,7 +60,7 @@ def compare(
         ),
     ] = None,
     lubricant_viscosity: Annotated[
-        str | None, quantity_option('At 40 C; default "150 mm^2/s".')
+        str | None, quantity_option('At 40 degC; default "150 mm^2/s".')
     ] = None,
     life_hours: Annotated[
         float | None, option("H", "At the continuous torque; default 1000.")

@@ -58,8 +58,8 @@ def export(
     ] = None,
     seed: Annotated[
         int | None,
-        typer.Option(
-            min=0, help="Gearbox of simulators drawn from the tolerances; default perfect parts."
+        option(
+            "N", "Gearbox of simulators drawn from the tolerances; default perfect parts.", min=0
         ),
     ] = None,
     calibration: Calibrated = None,

@@ -85,7 +85,7 @@ RigStiffness = Annotated[
     ),
 ]
 BenchSeed = Annotated[
-    int | None, typer.Option(min=0, help="Of one drawn gearbox; default perfect parts.")
+    int | None, option("N", "Of one drawn gearbox; default perfect parts.", min=0)
 ]
 
 

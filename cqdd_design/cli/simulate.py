@@ -183,27 +183,12 @@ def simulate(
     out.document(result.to_dict(), design=loaded, files=[file])
 
 
-#: Key of the summary, what it is, unit.
-_ROWS = (
-    ("output_torque_Nm_peak", "output torque, peak", "N*m"),
-    ("output_torque_Nm_rms", "output torque, r.m.s.", "N*m"),
-    ("output_speed_rad_per_s_peak", "output speed, peak", "rad/s"),
-    ("output_speed_rad_per_s_rms", "output speed, r.m.s.", "rad/s"),
-    ("current_A_peak", "current, peak", "A"),
-    ("current_A_rms", "current, r.m.s.", "A"),
-    ("winding_temperature_degC_peak", "winding, hottest", "degC"),
-    ("electrical_J", "energy from the drive", "J"),
-    ("external_J", "energy from outside", "J"),
-    ("dissipated_J", "energy dissipated", "J"),
-    ("stored_J", "energy stored", "J"),
-    ("residual_J", "residual of the balance", "J"),
-)
-
-
 def _lines(result: Recording) -> list[str]:
+    from cqdd_design.actuator.columns import SUMMARY
+
     sets = result.summary()
     rows = []
-    for key, title, unit in _ROWS:
+    for key, title, unit in SUMMARY:
         values = [one[key] for one in sets]
         cells = [min(values), sum(values) / len(values), max(values)] if len(sets) > 1 else values
         rows.append([title, *map(number, cells), unit])

@@ -95,9 +95,19 @@ _ROWS = (
     ExportKind("mjcf", "simulators.mjcf:export_mjcf", "model for MuJoCo", _PLAIN, "simulators"),
     ExportKind("urdf", "simulators.urdf:export_urdf", "robot of one joint", _PLAIN, "simulators"),
     ExportKind(
-        "card", "simulators.actuator_card:export_card", "every parameter", _PLAIN, "simulators"
+        "card",
+        "simulators.actuator_card:export_card",
+        "every parameter and its origin",
+        _PLAIN,
+        "simulators",
     ),
-    ExportKind("bam", "simulators.bam:export_bam", "friction for BAM", _PLAIN, "simulators"),
+    ExportKind(
+        "bam",
+        "simulators.bam:export_bam",
+        "friction in the names of Rhoban's BAM",
+        _PLAIN,
+        "simulators",
+    ),
 )
 KINDS: Mapping[str, ExportKind] = MappingProxyType({row.name: row for row in _ROWS})
 """Every kind by its name, in the order of help."""

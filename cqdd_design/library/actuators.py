@@ -109,14 +109,20 @@ class Calibrated(Result):
         return [{"name": row.name} | row.to_dict() for row in self.found.rows]
 
     def _sections(self) -> Sequence[Section]:
-        from cqdd_design.report.ink.numbers import significant
+        from cqdd_design.report.ink.numbers import pretty_unit, significant
         from cqdd_design.report.notebook import table
+        from cqdd_design.terms import measurement
 
         def shown(value: float | None) -> str:
             return "" if value is None else significant(value)
 
         rows = [
-            (row.name, row.unit, *map(shown, (row.measured, row.before, row.after)), row.relation)
+            (
+                measurement(row.name),
+                pretty_unit(row.unit),
+                *map(shown, (row.measured, row.before, row.after)),
+                row.relation,
+            )
             for row in self.found.rows
         ]
         head = ("Measurement", "Unit", "#Measured", "#Computed", "#Calibrated", "Agreement is")

@@ -61,10 +61,22 @@ class Simulated(Result):
         return frame(self.found.columns())
 
     def _sections(self) -> Sequence[Section]:
+        from cqdd_design.actuator.columns import SUMMARY
+        from cqdd_design.report.ink.numbers import pretty_unit, significant
         from cqdd_design.report.notebook import table
 
-        rows = [tuple(line.split(": ")) for line in self._figures()]
-        return (table("The record", ("Figure", "#Value"), rows),)
+        every = self.found.summary()
+        several = len(every) > 1
+
+        def cells(values: list[float]) -> list[str]:
+            return [significant(v) for v in ((min(values), max(values)) if several else values)]
+
+        rows = [
+            (words, *cells([one[key] for one in every]), pretty_unit(unit))
+            for key, words, unit in SUMMARY
+        ]
+        values = ("#Least", "#Most") if several else ("#Value",)
+        return (table("The record", ("Figure", *values, "Unit"), rows),)
 
 
 @road

@@ -80,8 +80,10 @@ def export(
         Kinds of file; docs/cli.md lists them.
     out : path, optional
         Folder; default ``exports/NAME``, whose files are replaced.
-    dxf_version, dxf_style : str
-        Dialect of DXF; contours closed, or as lines and arcs end to end.
+    dxf_version : {"R12", "R2000", "R2010"}
+        Dialect of DXF.
+    dxf_style : {"polyline", "entities"}
+        Contours closed, or as lines and arcs end to end.
     step_schema : {"AP214", "AP242"}
         Protocol of STEP.
     gcode_dialect : {"iso", "sodick"}

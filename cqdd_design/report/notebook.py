@@ -64,7 +64,7 @@ def notebook_page(
     """
     context: Values = {
         "design": design,
-        "told": printed(told),
+        "told": printed(told.replace("`", "")),
         "verdict": None if judged is None else verdict(judged, ()),
         "front_view": front_view(outlines_of(resolve(design))),
         "sections": tuple(one.template for one in sections),

@@ -177,6 +177,18 @@ def test_pages_take_what_whole_files_of_an_earlier_run_recorded(monkeypatch, tmp
     assert one == [(files[0].name, "published", (files[0].stem, 1.5))]
 
 
+def test_rules_of_checks_are_printed_with_letters_and_help_with_short_names():
+    allowables = (REPOSITORY / "docs" / "assumptions.md").read_text(encoding="utf-8")
+    rules = [line.split(" | ")[1] for line in allowables.splitlines() if line.startswith("| `")]
+    assert len(rules) > 80
+    names = r"(?<![\w.])(?:alpha|delta|mu|omega|pi|rho|sigma|tau)(?=_|\b)|\ddeg|<=|>="
+    assert [rule for rule in rules if re.search(names, rule)] == []
+    assert any("\u03c3_a/(1 \u2212 \u03c3_m/S_u)" in rule for rule in rules)
+    # What stands for a value is short, as N, Q or FILE.
+    helped = (REPOSITORY / "docs" / "cli.md").read_text(encoding="utf-8")
+    assert re.findall(r"--[\w-]+ <(?:int|float)[^>]*>", helped) == []
+
+
 def test_no_validation_shows_a_figure_above_its_bound():
     rows = [
         (page.name, line)

@@ -147,13 +147,16 @@ def test_what_is_wider_than_a_phone_says_so(
 def test_options_stay_whole_and_keys_in_tables_may_be_broken() -> None:
     nodes = pytest.importorskip("docutils.nodes")
     site_parts = _module("site_parts", DOCS / "site_parts.py")
-    context = {"body": '<a href="#--to">say --to, --step-schema</a> a--b <!-- --x --> --'}
-    site_parts.whole_options(None, "", "", context, None)
+    context = {
+        "body": '<a href="#--to">say --to, --step-schema</a> a--b <!-- --x --> -- <i>1e-11</i>'
+    }
+    site_parts.whole_words(None, "", "", context, None)
     assert context["body"] == (
         '<a href="#--to">say <span class="whole">--to</span>, '
-        '<span class="whole">--step-schema</span></a> a--b <!-- --x --> --'
+        '<span class="whole">--step-schema</span></a> a--b <!-- --x --> -- '
+        '<i><span class="whole">1e-11</span></i>'
     )
-    site_parts.whole_options(None, "", "", {}, None)
+    site_parts.whole_words(None, "", "", {}, None)
     cell, beside = nodes.entry(), nodes.literal("", "drive.thermal_limit")
     cell += nodes.literal("", "drive.thermal_limit")
     cell += nodes.literal("", ".count_")
@@ -162,6 +165,23 @@ def test_options_stay_whole_and_keys_in_tables_may_be_broken() -> None:
     pieces = [[one.astext() for one in code.children] for code in cell.children]
     assert pieces == [["drive.", "<wbr>", "thermal_", "<wbr>", "limit"], [".count_"]]
     assert len(beside.children) == 1
+
+
+def test_numbers_stay_with_their_units() -> None:
+    pytest.importorskip("docutils")
+    site_parts = _module("site_parts", DOCS / "site_parts.py")
+    told = "M4 m 10.72 s, 5 kN·m/rad, 3 mm²/s and 17.0 % of 3 A3 sheets; v1.2 mm, 12 cqdd"
+    found = [one.astext() for one in site_parts.quantities(told) if one.tagname == "inline"]
+    assert found == ["10.72 s", "5 kN·m/rad", "3 mm²/s", "17.0 %"]
+    assert "".join(one.astext() for one in site_parts.quantities(told)) == told
+
+
+def test_pages_that_docstrings_name_are_links() -> None:
+    pytest.importorskip("docutils")
+    site_parts = _module("site_parts", DOCS / "site_parts.py")
+    lines = ["The model is docs/contact-model.md, with its sources."]
+    site_parts.link_pages(None, "", "", None, None, lines)
+    assert lines == ["The model is :doc:`docs/contact-model.md <contact-model>`, with its sources."]
 
 
 def test_no_line_of_a_page_is_taken_for_a_comment() -> None:
@@ -191,6 +211,9 @@ def test_symbols_are_told_from_names() -> None:
     )
     assert set_as("sigma_m/S_u. So") == "sigma[sub m]/S[sub u]. So"
     assert set_as("E*_1, W^-0.13, d^(2/3).") == "E*[sub 1], W[sup \u22120.13], d[sup 2/3]."
+    assert set_as("(d_pin,max - d_pin,mean), B_m, max") == (
+        "(d[sub pin,max] - d[sub pin,mean]), B[sub m], max"
+    )
     for name in ("peak_torque", "x_position_m", "a/b_c.toml", "file_a"):
         assert set_as(name) == name
 

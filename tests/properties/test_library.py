@@ -380,6 +380,55 @@ def test_a_notebook_shows_the_reports_own_figures(analysed):
     assert not re.search(r"(?:src|href)=\"(?:https?:)?//", page)
 
 
+def shown_page(found):
+    """The page that a notebook shows of a result."""
+    import html
+
+    return html.unescape(re.search(r'srcdoc="([^"]*)"', found._repr_html_())[1])
+
+
+def test_a_notebook_has_words_and_units_where_the_document_has_keys():
+    from cqdd_design.actuator.columns import SUMMARY
+
+    run = cq.simulate("cqdd-10", command="open", duration="5 ms")
+    page = shown_page(run)
+    for key, words, _ in SUMMARY:
+        assert key in run.found.summary()[0]
+        assert f"<td>{words}</td>" in page
+        assert key not in page
+    assert "<td>N·m</td>" in page
+    # Its lines are dark: in a dark notebook the drawing keeps a light sheet of its own.
+    assert re.search(r'<figure id="front-view" class="drawing">', page)
+    one = shown_page(cq.bench("cqdd-10", only=("mass",)))
+    assert "1 measurement on the simulation" in one
+
+
+def test_a_notebook_tells_its_line_without_code_marks(analysed):
+    assert "`" in analysed._told()
+    assert "(check draws toleranced ones too)" in shown_page(analysed)
+
+
+def test_calibrated_rows_are_named_and_have_units_as_printed():
+    import types
+
+    from cqdd_design.library.actuators import Calibrated
+
+    row = types.SimpleNamespace(
+        name="backdrive_static",
+        unit="N*m",
+        measured=1.99,
+        before=2.35,
+        after=None,
+        relation="given",
+    )
+    (section,) = Calibrated._sections(
+        types.SimpleNamespace(found=types.SimpleNamespace(rows=[row]))
+    )
+    assert section.values["rows"]["rows"] == [
+        ("backdrive torque, breakaway", "N·m", "1.99", "2.35", "", "given")
+    ]
+
+
 def test_a_table_has_a_row_for_every_contact(analysed):
     table = analysed.to_pandas()
     reducer = analysed.design.reducer

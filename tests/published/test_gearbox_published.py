@@ -47,7 +47,7 @@ def sharing(row: Row) -> float:
     angle = np.linspace(0.0, kinematics.ring_period(n), 2001)
     if "crank angle 0" in row["quantity"]:
         angle = np.zeros(1)
-    elif "crank angle 2 pi/11" in row["quantity"]:
+    elif "crank angle 2π/11" in row["quantity"]:
         # A tooth stands 2.727 deg behind the crank; the number is that of the other side.
         angle, torque = np.array([2.0 * np.pi / 11.0]), -torque
     return float(rigid.ring_forces(n, 1e-3 * radius, 1e-3 * e, torque, angle).max())

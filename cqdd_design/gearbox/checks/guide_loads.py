@@ -119,7 +119,7 @@ ROWS = (
         "MPa m/s",
         "max",
         "p v <= what the plastic bears dry on steel, p = mean F/(d b), v = e (1 + 1/n) omega; of "
-        "plain sleeves that on their pin",
+        "plain sleeves, where they turn on their pin",
         "Above it the surface softens and wears away within hours. Judged at the continuous torque "
         "and its speed, under a duty at its step of the most power, where a disc, pin or "
         "sleeve of plastic slides; needles roll.",

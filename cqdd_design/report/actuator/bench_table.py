@@ -70,10 +70,11 @@ def bench_view(parameters: ActuatorParameters, bench: BenchResult, *, pin_count:
     pin_count : int
         Of the output, to name orders.
     """
+    count = len(bench.metrics)
     lead = (
-        f"{len(bench.metrics)} measurements on the simulation of the actuator, each by the "
-        "protocol a laboratory would use; no-load speed, efficiency and position bandwidths on "
-        f"{with_unit(bench.voltage, 'V')}, all else on "
+        f"{count} measurement{'' if count == 1 else 's'} on the simulation of the actuator, each "
+        "by the protocol a laboratory would use; no-load speed, efficiency and position bandwidths "
+        f"on {with_unit(bench.voltage, 'V')}, all else on "
         f"{with_unit(parameters.drive.supply_voltage, 'V')}."
     )
     holds = holds_itself(parameters)

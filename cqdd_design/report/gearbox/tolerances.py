@@ -13,6 +13,7 @@ from cqdd_design.report.ink.charts import Curve, Level, line_chart
 from cqdd_design.report.ink.numbers import pretty_unit, significant, with_unit
 from cqdd_design.report.ink.page import Values
 from cqdd_design.report.ink.svg import Figure, Words
+from cqdd_design.report.judgement.check_rows import printed, sentence
 from cqdd_design.terms import term
 
 if TYPE_CHECKING:
@@ -43,7 +44,7 @@ def tolerance_view(result: ToleranceResult, clearances: Sequence[ClearancePoint]
     if reserve is not None:
         told = tuple(significant(reserve[key]) for key in _STATISTICS)
         rows += ((term("pressure_reserve").words, *told, "1, least"),)
-    lead += "".join(f" {words[0].upper()}{words[1:]}" for words in result.warnings)
+    lead += "".join(f" {sentence(printed(words))}" for words in result.warnings)
     histograms = [_histogram(result, name) for name in RANKED]
     rankings = [_ranking(result, name) for name in RANKED if result.ranking(name)]
     return {

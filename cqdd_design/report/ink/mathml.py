@@ -65,18 +65,18 @@ def _side(side: str) -> str:
             return f'<math displaystyle="true">{_Parser(side).whole()}</math>'
         except _NotAFormula:
             pass
-    return f'<span class="prose-formula">{lowered(_signs(side))}</span>'
+    return f'<span class="prose-formula">{lowered(signs(side))}</span>'
 
 
-def _signs(prose: str) -> str:
+def signs(prose: str) -> str:
     """Letters, powers, degrees and minus signs as print has them, in prose with some symbols.
 
     Examples
     --------
-    >>> _signs("tau = F/(pi/4 d^2) along its seam, 30deg")
-    'τ = F/(π/4 d²) along its seam, 30°'
+    >>> signs("tau_B = F/(pi/4 d^2) along its seam, 30deg")
+    'τ_B = F/(π/4 d²) along its seam, 30°'
     """
-    prose = re.sub(rf"\b({'|'.join(_GREEK)})\b", lambda name: _GREEK[name[1]], prose)
+    prose = re.sub(rf"(?<![\w.])({'|'.join(_GREEK)})(?=_|\b)", lambda name: _GREEK[name[1]], prose)
     prose = prose.replace("^2", "²").replace("^3", "³").replace(" - ", " \u2212 ")
     return re.sub(r"(?<=\d) ?deg\b", "°", prose)
 
@@ -94,7 +94,7 @@ def lowered(prose: str) -> str:
         index = re.sub(r"(alpha|beta|gamma)$", lambda name: _GREEK[name[1]], found[2])
         return f"<i>{_GREEK.get(found[1], found[1])}</i><sub>{index}</sub>"
 
-    symbol = r"\b([A-Za-z]|sigma|tau|rho|eta)_([A-Za-z0-9]+)\b"
+    symbol = r"\b([^\W\d_]|sigma|tau|rho|eta)_([A-Za-z0-9]+)\b"
     return re.sub(symbol, shown, html.escape(prose))
 
 

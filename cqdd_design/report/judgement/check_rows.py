@@ -111,6 +111,7 @@ def printed(text: str) -> str:
         lambda found: f"{found[1]} {TIMES} 10{superscript(int(found[2]))}",
         text,
     )
+    text = re.sub(r"(?<=\d)%", "\u202f%", text)
     text = re.sub(r"(?<=\d) degC\b", " °C", text)
     text = re.sub(r"(?<=\d) deg\b", "°", text)
     text = re.sub(r"\^3\b", "³", re.sub(r"\^2\b", "²", text))
