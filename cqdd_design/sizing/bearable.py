@@ -59,7 +59,7 @@ def or_weaker(
     first = bearable(hunt, None) if near is None else Borne(math.inf, math.inf)
     if first.least < _CLOSE:
         hunt.strongest = first.cam
-    if near is None and first.least < _CERTAIN and (least := _of_the_duty(hunt.requirements)):
+    if near is None and first.lasting < _CERTAIN and (least := _of_the_duty(hunt.requirements)):
         most, hunt.requirements = hunt.requirements, least
         found = search()
         return None if found is None else _more_again(hunt, search, found, most)
@@ -96,7 +96,10 @@ def or_weaker(
 def _of_the_duty(asked: Requirements) -> Requirements | None:
     """With no more peak torque than the duty has: that is stated, and is not to be lowered."""
     greatest = max((abs(one.torque) for one in asked.load_cases), default=math.inf)
-    return asked.unchecked_copy({PEAK: greatest}) if greatest < asked.peak_torque else None
+    if greatest >= asked.peak_torque:
+        return None
+    lasting = min(asked.continuous_torque, greatest)
+    return asked.unchecked_copy({PEAK: greatest, CONTINUOUS: lasting})
 
 
 def _more_again(

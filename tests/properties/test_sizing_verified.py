@@ -414,13 +414,15 @@ def test_a_peak_that_nobody_stated_is_no_less_than_the_duty_has(
 ) -> None:
     """What the duty asks is not lowered with it; and what is borne between is found again."""
     duty = [{"torque": "-30 N*m", "speed": "2 rad/s", "share": 0.5}]
-    guess = first_guess(asked(duty=duty), None)
+    guess = first_guess(asked(duty=duty), None).unchecked_copy({"continuous_torque": 40.0})
     hunt = replace(hunt_of_what_is_assumed(), requirements=guess)
     monkeypatch.setattr("cqdd_design.sizing.bearable.bearable", lambda *_: Borne(1.2, 0.6))
     tried = []
 
     def search() -> object | None:
         tried.append(hunt.requirements.peak_torque)
+        # By which closed forms size.
+        assert hunt.requirements.continuous_torque <= tried[-1]
         return SimpleNamespace() if tried[-1] <= bears else None
 
     found = or_weaker(hunt, search)  # type: ignore[arg-type]
@@ -432,6 +434,12 @@ def test_a_peak_that_nobody_stated_is_no_less_than_the_duty_has(
         assert found is not None
         assert least < hunt.requirements.peak_torque <= bears
     assert guess.peak_torque > 1.2 * bears
+    # Where the peak torque alone is too much it is lowered as it is without a duty.
+    monkeypatch.setattr("cqdd_design.sizing.bearable.bearable", lambda *_: Borne(0.9, 1.2))
+    hunt.requirements = guess
+    tried.clear()
+    assert or_weaker(hunt, search) is None or tried[-1] <= bears  # type: ignore[arg-type]
+    assert 30.0 not in tried[:2]
 
 
 @pytest.mark.deep
