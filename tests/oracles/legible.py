@@ -103,7 +103,7 @@ def faults(canvas):
 
 def assert_legible(canvas):
     """Every label can be read, and no stroke leaves the paper."""
-    assert not faults(canvas)
+    assert not faults(canvas), faults(canvas)
     numbers = re.findall(
         r"-?[\d.]+", " ".join(step for steps in canvas.strokes.values() for step in steps)
     )

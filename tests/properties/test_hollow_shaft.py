@@ -151,7 +151,10 @@ def test_its_sheets_can_be_read(machines: dict[str, Machine], name: str) -> None
         if part.name in holes:
             sheet = render(draw_part(PartFacts(part, machine.given)))
             assert_legible(sheet)
-            assert f"Ø{2e3 * holes[part.name]:g}" in {label.text for label in sheet.labels}
+            # A shaft that just lets through what was asked for may not be bored any smaller.
+            limits = " (+0.1/0)" if part.name == "eccentric shaft" else ""
+            told = {label.text for label in sheet.labels}
+            assert f"Ø{2e3 * holes[part.name]:g}{limits}" in told
 
 
 @pytest.mark.deep

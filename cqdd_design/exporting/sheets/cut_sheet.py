@@ -48,6 +48,8 @@ SECTION = complex(246.0, 174.0)
 MOST_REACH, MOST_THICKNESS = 72.5, 34.0
 
 _MM = 1e3
+_WITHIN = 0.75
+"""Share of the way to the wall of a ring up to which a note within begins."""
 
 
 def draw_sheet(facts: CutFacts) -> Canvas:
@@ -206,7 +208,7 @@ def _concave_radius(sheet: SheetDrawing, facts: CutFacts, reach: float) -> None:
 
     Of a ring's pockets, which are seats of its pins, it is their diameter with its zone.
     It is read from the side of its centre, where nothing else stands: past the lobes of a disc,
-    within the opening of a ring.
+    within the opening of a ring; from outside where that is too narrow.
     """
     outer = facts.flat.fitted is facts.flat.shape.outer
     contour = segmented(facts.flat.fitted)
@@ -225,10 +227,11 @@ def _concave_radius(sheet: SheetDrawing, facts: CutFacts, reach: float) -> None:
         size = f"\u00d8{_MM * pockets.diameter:.6g} {pockets.limits.zone}"
         words = f"{facts.design.reducer.ring_tooth_count} \u00d7 {size}"
     width = text_width(words, TEXT) + 3.0
-    # Within a ring it stands clear of the upright axis.
+    # Within a ring it stands clear of the upright axis, and of the teeth.
     share = max(0.35, (width + 2.0) / wall.real)
-    elbow = wall * ((reach + 9.0) / abs(wall) if outer else share)
-    sheet.callout(FRONT + wall, FRONT + elbow, words, width if outer else -width)
+    outside = outer or share > _WITHIN
+    elbow = wall * ((reach + 9.0) / abs(wall) if outside else share)
+    sheet.callout(FRONT + wall, FRONT + elbow, words, width if outside else -width)
 
 
 def _section(sheet: SheetDrawing, facts: CutFacts) -> None:
