@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 
 from cqdd_design.design import load_design
 from cqdd_design.errors import CqddError, GeometryError, ReadBackError
-from cqdd_design.exporting.edm.begin import NO_PIECE, begun, tab_of
+from cqdd_design.exporting.edm.begin import NO_PIECE, begun, tab_of, tab_on
 from cqdd_design.exporting.edm.dxf import write_flat_part
 from cqdd_design.exporting.edm.flat_parts import flat_parts
 from cqdd_design.exporting.edm.gcode import program
@@ -114,6 +114,33 @@ def test_a_contour_begins_half_a_tab_past_its_quiet_place_and_stays_the_same(pap
             else:
                 # To the next of the places that were looked at.
                 assert np.angle(quiet) == pytest.approx(flat.quiet_angle, abs=1e-4)
+
+
+def test_a_tab_between_pockets_ends_before_them(paper):
+    """A ring of 41 narrow lands, over which the usual tab would run into the pockets' walls."""
+    many = paper.replacing(
+        {
+            "reducer.ring_type": "pinwheel",
+            "reducer.ratio": 40,
+            "requirements.ratio": 40,
+            "reducer.eccentricity": "0.5 mm",
+            "reducer.ring_pin_diameter": "2.5 mm",
+            "reducer.ring_pitch_radius": "34 mm",
+            "reducer.ring.outer_diameter": "76 mm",
+        }
+    )
+    ring = flat_parts(resolve(many))[-1]
+    number = next(i for i, one in enumerate(ring.contours) if one is ring.fitted)
+    bore = np.abs(as_complex(ring.fitted.points)).min()
+    tab = tab_on(ring, number)
+    assert 1e-3 < tab < tab_of(ring.fitted) == 3e-3
+    _, after = split_for_tab(begun(ring, number), tab)
+    assert np.abs(after.points) == pytest.approx(bore)
+    # Straight off the land, towards the axis.
+    path = wire_paths(ring, many.edm)[number]
+    assert abs(path.start) < bore - 0.5 * path.start_diameter
+    usual = flat_parts(resolve(paper.replacing({"reducer.ring_type": "pinwheel"})))[-1]
+    assert tab_on(usual, number) == 3e-3
 
 
 def test_an_arc_moved_sideways_keeps_centre_and_sweep(paper, disc):

@@ -36,6 +36,9 @@ if TYPE_CHECKING:
 
 TABS_PER_CONTOUR = 8.0
 """A tab takes no more than this fraction of a contour."""
+_CORNER, _TO_CORNER = 0.1, 0.8
+"""Turn at a joint that is a corner, rad, and share of the way to it that a tab may take: the wire
+comes straight off the wall where the tab ends."""
 _PER_SEGMENT = 256
 NO_PIECE = 10e-6
 """Shorter pieces of an arc are none, m: coordinates to 0.1 um would turn them, and with them the
@@ -45,6 +48,27 @@ way to the wire. A cut begins or ends at the joint instead."""
 def tab_of(contour: Contour, wanted: float = DEFAULTS.tab_length) -> float:
     """Length of the tab of a contour, m."""
     return min(wanted, contour.length() / TABS_PER_CONTOUR)
+
+
+def tab_on(flat: FlatPart, number: int, wanted: float = DEFAULTS.tab_length) -> float:
+    """Length of the tab of a contour of a part, m: it ends before the next corner on either side.
+
+    In a ring that is where the pockets of its pins begin.
+    """
+    contour = flat.contours[number]
+    tab = tab_of(contour, wanted)
+    if isinstance(contour, Circle):
+        return tab
+    whole, place = contour.length(), _place_at(contour, flat.quiet_at(contour))
+    away = np.abs((_corners(contour) - place + 0.5 * whole) % whole - 0.5 * whole)
+    return min(tab, 2.0 * _TO_CORNER * float(away.min(initial=whole)))
+
+
+def _corners(contour: ArcContour) -> FloatArray:
+    """Ways along a contour to where it turns at a joint, m."""
+    first, last = (as_complex(contour.evaluate(np.array([at]))[1])[:, 0] for at in (0.0, 1.0))
+    turns = np.abs(np.angle(np.roll(first, -1) * last.conj())) > _CORNER
+    return np.asarray(np.cumsum(_lengths(contour))[turns])
 
 
 def begun(flat: FlatPart, number: int, tab: float = DEFAULTS.tab_length) -> ArcContour:
@@ -58,7 +82,7 @@ def begun(flat: FlatPart, number: int, tab: float = DEFAULTS.tab_length) -> ArcC
         Length of the tab where the contour is long enough, m.
     """
     contour = flat.contours[number]
-    half = 0.5 * tab_of(contour, tab)
+    half = 0.5 * tab_on(flat, number, tab)
     if isinstance(contour, Circle):
         place = complex(*contour.centre)
         outward = cmath.phase(place) if abs(place) > contour.radius else 0.0

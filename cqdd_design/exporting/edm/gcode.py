@@ -32,7 +32,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from cqdd_design.exporting.edm.begin import begun, tab_of
+from cqdd_design.exporting.edm.begin import begun, tab_on
 from cqdd_design.exporting.edm.dxf import contour_fit
 from cqdd_design.exporting.edm.flat_parts import FlatPart, flat_parts, seats_of
 from cqdd_design.exporting.edm.gcode_check import check_program
@@ -244,7 +244,7 @@ def _cut(
 ) -> _Cut:
     nominal = flat.contours[number]
     contour = begun(flat, number, options.tab_length)
-    wall, tab = split_for_tab(contour, tab_of(nominal, options.tab_length))
+    wall, tab = split_for_tab(contour, tab_on(flat, number, options.tab_length))
     circle = None
     if isinstance(nominal, Circle):
         # On the grid of the coordinates, its joints with it, so that the radii of its arcs agree.
