@@ -6,6 +6,8 @@ import math
 from contextlib import suppress
 from dataclasses import replace
 
+import numpy as np
+
 from cqdd_design.actuator.demands import Demand, demands
 from cqdd_design.actuator.duty_points import DutyPoints, duty_points
 from cqdd_design.actuator.motor import torque_constant_at
@@ -40,6 +42,8 @@ _RAISED = {
 """What to raise where it binds."""
 _LOWER_CONTINUOUS = "lower requirements.continuous_torque to about"
 _MOST_RAISED = 10.0
+_ZOOMS, _SPEEDS = 3, 33
+"""Of the search for the speed up to which a torque is held, and speeds that are tried in each."""
 """Above so many times what there is it is no cure."""
 _FIGURES = (
     ("peak_torque", "peak torque"),
@@ -143,9 +147,7 @@ def _continuous(
         limit = asked.continuous_torque
         return build_check("MOTOR-CONTINUOUS", None, limit, uncooled, cure, model=MODEL)
     most, still = demand.found.most, float(held_torque(actuator, 0.0)[0])
-    slower = "lower requirements.continuous_speed"
-    if asked.continuous_speed is None:
-        slower = "state as continuous_speed at which speed it is held, if that is less"
+    slower = _slower(actuator, asked) if most < asked.continuous_torque else ""
     # What friction alone overheats holds nothing while it turns. Friction is put in two numbers at
     # the torque that is asked for: at a lower one a little more may be held.
     lower = f"{_LOWER_CONTINUOUS} {rounded_down(most):g} N*m, " if most > 0.0 else ""
@@ -155,9 +157,29 @@ def _continuous(
         asked.continuous_torque,
         f"{most:.4g} N*m at {asked.held_speed * _RPM:.0f} rpm of the motor; {still:.4g} N*m "
         "standing still",
-        f"{lower}{slower}, lower friction, or cool it (drive.thermal_resistance states how well)",
+        f"{lower}{slower}lower friction, or cool it (drive.thermal_resistance states how well)",
         model=MODEL,
     )
+
+
+def _slower(actuator: ActuatorParameters, asked: Requirements) -> str:
+    """The speed up to which a continuous torque is held, in words; nothing where there is none."""
+    fast, slow = asked.held_speed, 0.0
+    for _ in range(_ZOOMS):
+        speeds = np.linspace(slow, fast, _SPEEDS)
+        held = held_torque(actuator, speeds / abs(actuator.gear.ratio)) >= asked.continuous_torque
+        if not held.any():
+            return ""
+        last = int(np.flatnonzero(held)[-1])
+        slow, fast = speeds[last], speeds[min(last + 1, _SPEEDS - 1)]
+    told = rounded_down(slow * _RPM) if slow > 0.0 else 0.0
+    slower = asked.unchecked_copy({"continuous_speed": told / _RPM})
+    # Driver and supply do not come to more by that.
+    if told <= 0.0 or demands(actuator, slower)[1].found.most < asked.continuous_torque:
+        return ""
+    if asked.continuous_speed is None:
+        return f"state continuous_speed, as it is held up to {told:g} rpm, "
+    return f"lower requirements.continuous_speed to {told:g} rpm, "
 
 
 def _speed(actuator: ActuatorParameters, asked: Requirements) -> Check:

@@ -171,6 +171,30 @@ def test_continuous_means_for_ever_at_the_input_speed(machine: Machine, judged: 
     assert by_id(unsure)["MOTOR-CONTINUOUS"].substituted == "nothing is drawn"
 
 
+@pytest.mark.parametrize(("torque", "speed"), [(5.0, "1200 rpm"), (9.0, None), (40.0, "300 rpm")])
+def test_the_speed_that_is_advised_is_one_at_which_the_torque_is_held(
+    machine: Machine, torque: float, speed: str | None
+) -> None:
+    """And a little faster it is not; where it is not even held at rest, no speed is told."""
+
+    def line_of(**changed: object) -> Check:
+        stated = {"requirements.continuous_torque": torque, "requirements.peak_torque": 50.0}
+        if speed is not None:
+            stated["requirements.continuous_speed"] = speed
+        other = resolve(machine.design.replacing({**stated, **changed}))
+        return by_id(motor_lines(other, actuator_parameters(other), ""))["MOTOR-CONTINUOUS"]
+
+    told = line_of()
+    assert told.status == "fail"
+    found = re.search(r"continuous_speed(?: to|, as it is held up to) ([\d.]+) rpm", told.remedy)
+    assert (found is None) == (torque > 30.0)
+    assert "continuous_speed" not in told.remedy or found
+    if found:
+        assert line_of(**{"requirements.continuous_speed": f"{found[1]} rpm"}).status == "pass"
+        faster = 1.02 * float(found[1])
+        assert line_of(**{"requirements.continuous_speed": f"{faster} rpm"}).status == "fail"
+
+
 def test_under_a_duty_its_heat_decides_and_not_the_continuous_torque(machine: Machine) -> None:
     duty = [{"torque": "3 N*m", "speed": "-1 rad/s", "share": 0.5}]
     mean = 0.5 * machine.design.reducer.ratio
