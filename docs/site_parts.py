@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Callable
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any
 
@@ -73,14 +74,20 @@ def _left(_: HTML5Translator, __: nodes.Element) -> None:
 
 def set_symbols(app: Sphinx, tree: nodes.document) -> None:
     """Indices below and powers above the line, in text that is no code."""
-    if app.env.docname == "api":
-        return
+    if app.env.docname != "api":
+        _replace_words(tree, _SUNK, symbols)
+
+
+def _replace_words(
+    tree: nodes.document, pattern: re.Pattern[str], made: Callable[[str], list[nodes.Node]]
+) -> None:
+    """Put nodes in place of every text in which a pattern stands and that is no code."""
     for text in list(tree.findall(nodes.Text)):
         place: Any = text
         while place is not None and not isinstance(place, _AS_IT_IS):
             place = place.parent
-        if place is None and _SUNK.search(text):
-            text.parent.replace(text, symbols(text))
+        if place is None and pattern.search(text):
+            text.parent.replace(text, made(text))
 
 
 def symbols(text: str) -> list[nodes.Node]:
@@ -110,12 +117,7 @@ def breakable(_: Sphinx, tree: nodes.document) -> None:
 
 def kept_together(_: Sphinx, tree: nodes.document) -> None:
     """A number and its unit stand on one line, but where a table has no room."""
-    for text in list(tree.findall(nodes.Text)):
-        place: Any = text
-        while place is not None and not isinstance(place, _AS_IT_IS):
-            place = place.parent
-        if place is None and _QUANTITY.search(text):
-            text.parent.replace(text, quantities(text))
+    _replace_words(tree, _QUANTITY, quantities)
 
 
 def quantities(text: str) -> list[nodes.Node]:

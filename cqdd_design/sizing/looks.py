@@ -113,7 +113,7 @@ def motor_far_short(hunt: Hunt, machine: Machine, least: float = 0.0) -> tuple[C
         return ()
     rigid = replace(machine, stiff=True)
     hot = _hot_by_duty(rigid) if duty else ()
-    far = [line for line in hot if line.margin < max(_TOO_HOT, least)]
+    far = [line for line in hot if line.margin < (least or _TOO_HOT)]
     # How a motor is cooled that is not drawn nobody knows, unless it is stated.
     cooled = machine.design.drive.thermal_resistance or not undrawn_sizes(machine.motor)
     try:

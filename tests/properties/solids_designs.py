@@ -60,6 +60,17 @@ CHANGES: dict[str, dict[str, object]] = {
     "clamped": {"reducer.carrier.joint": "clamped"},
 }
 
+#: Of the paper's design: so many pockets of pins that tabs and notes have little room between.
+MANY_POCKETS = {
+    "reducer.ring_type": "pinwheel",
+    "reducer.ratio": 40,
+    "requirements.ratio": 40,
+    "reducer.eccentricity": "0.5 mm",
+    "reducer.ring_pin_diameter": "2.5 mm",
+    "reducer.ring_pitch_radius": "34 mm",
+    "reducer.ring.outer_diameter": "76 mm",
+}
+
 
 @lru_cache(maxsize=16)
 def known_design(name: str) -> Design:

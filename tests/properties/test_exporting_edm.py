@@ -13,7 +13,7 @@ from examples import examples
 from hypothesis import HealthCheck, given, settings
 from legible import assert_legible
 from lxml import etree
-from solids_designs import machines
+from solids_designs import MANY_POCKETS, machines
 
 from cqdd_design.catalog import find_material, materials
 from cqdd_design.design import load_design
@@ -94,15 +94,7 @@ def test_discs_that_are_not_one_part_are_not_said_to_be(paper, tmp_path):
         pytest.param({"reducer.ring_type": "conjugate"}, marks=pytest.mark.deep),
         {"reducer.ring_type": "pinwheel"},
         # So many pockets that their note is longer than the way to the wall.
-        {
-            "reducer.ring_type": "pinwheel",
-            "reducer.ratio": 40,
-            "requirements.ratio": 40,
-            "reducer.eccentricity": "0.5 mm",
-            "reducer.ring_pin_diameter": "2.5 mm",
-            "reducer.ring_pitch_radius": "34 mm",
-            "reducer.ring.outer_diameter": "76 mm",
-        },
+        MANY_POCKETS,
         pytest.param({"reducer.disc_count": 3}, marks=pytest.mark.deep),
         pytest.param({"reducer.output_pins.hole_clocking": "0 deg"}, marks=pytest.mark.deep),
         pytest.param({"reducer.output_pins.hole_clocking": "-40 deg"}, marks=pytest.mark.deep),

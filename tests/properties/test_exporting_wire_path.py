@@ -15,6 +15,7 @@ from examples import examples
 from geometry_designs import design_of, discs
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
+from solids_designs import MANY_POCKETS
 
 from cqdd_design.design import load_design
 from cqdd_design.errors import CqddError, GeometryError, ReadBackError
@@ -118,17 +119,7 @@ def test_a_contour_begins_half_a_tab_past_its_quiet_place_and_stays_the_same(pap
 
 def test_a_tab_between_pockets_ends_before_them(paper):
     """A ring of 41 narrow lands, over which the usual tab would run into the pockets' walls."""
-    many = paper.replacing(
-        {
-            "reducer.ring_type": "pinwheel",
-            "reducer.ratio": 40,
-            "requirements.ratio": 40,
-            "reducer.eccentricity": "0.5 mm",
-            "reducer.ring_pin_diameter": "2.5 mm",
-            "reducer.ring_pitch_radius": "34 mm",
-            "reducer.ring.outer_diameter": "76 mm",
-        }
-    )
+    many = paper.replacing(MANY_POCKETS)
     ring = flat_parts(resolve(many))[-1]
     number = next(i for i, one in enumerate(ring.contours) if one is ring.fitted)
     bore = np.abs(as_complex(ring.fitted.points)).min()
