@@ -19,6 +19,8 @@ _BORE_SHARE = 0.6
 """Most of a column's diameter that its bore takes: seven eighths of its stiffness stay."""
 LEAST_COLUMN = 3e-3
 """Least diameter of a column, m: a tube over an M1.6 screw, the smallest there is."""
+_LARGEST_COLUMN_SCREW = 16e-3
+"""The largest thread of a column, m: that of the largest cap screw that layouts know."""
 
 
 @dataclass(frozen=True)
@@ -177,7 +179,7 @@ class ColumnScrew:
 
 
 def column_screw(diameter: float) -> ColumnScrew:
-    """The largest screw whose bore leaves a column of a diameter (m) a wall of a fifth of it.
+    """The largest screw, up to M16, whose bore leaves a column (m) a wall of a fifth of it.
 
     Raises
     ------
@@ -190,7 +192,11 @@ def column_screw(diameter: float) -> ColumnScrew:
     ColumnScrew(thread=0.003, bore=0.0032)
     """
     most = _BORE_SHARE * diameter * 1e3
-    fitting = [row for row in thread_sizes().values() if row.fine * 1e3 <= most + 1e-9]
+    fitting = [
+        row
+        for row in thread_sizes().values()
+        if row.fine * 1e3 <= most + 1e-9 and row.diameter <= _LARGEST_COLUMN_SCREW
+    ]
     if diameter < LEAST_COLUMN or not fitting:
         raise CatalogError(
             f"no screw goes through a column of {diameter * 1e3:g} mm; the least is "

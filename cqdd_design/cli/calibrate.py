@@ -91,7 +91,7 @@ def calibrate(
         rig_stiffness=parse_positive("--rig-stiffness", rig_stiffness, STIFFNESS_GAIN),
         progress=out.stages(3),
     )
-    target = path or output_folder("exports") / f"{loaded.name}-calibration.json"
+    target = path or output_folder("exports") / f"{loaded.file_name}-calibration.json"
     file = write_calibration(found, loaded.sha256, target)
     out.say(*_lines(found))
     out.wrote([file])

@@ -39,7 +39,7 @@ def new(
 ) -> None:
     """Write a file to start from: a template with every key, or an example design."""
     from cqdd_design.design import templates
-    from cqdd_design.files import kind_by_ending, refuse_overwrite, write_atomically
+    from cqdd_design.files import write_atomically
 
     if (kind is None) == (example is None):
         raise UsageError(
@@ -47,15 +47,24 @@ def new(
             "or an example design, as in `cqdd-design new --example cqdd-10`; there are "
             f"{', '.join(templates.examples())}."
         )
-    if kind is not None:
-        found = templates.find_template(kind)
-        name, text, says = found.file, found.text(), found.says
+    if example is not None:
+        path = _place(f"{example}.toml", target, force=force)
+        text, says = templates.example_text(example, path.stem), "an example design"
     else:
-        assert example is not None
-        name, text, says = f"{example}.toml", templates.example_text(example), "an example design"
-    path = project_folder() / name if target is None else target
-    refuse_overwrite(path, force=force)
-    kind_by_ending(path, (Path(name).suffix[1:],), Path(name).stem)
+        assert kind is not None
+        found = templates.find_template(kind)
+        path = _place(found.file, target, force=force)
+        text, says = found.text(), found.says
     written = write_atomically(path, text, "template" if example is None else "design")
     out.wrote([written])
     out.document({"kind": kind, "example": example, "says": says}, files=[written])
+
+
+def _place(name: str, target: Path | None, *, force: bool) -> Path:
+    """Where a file of this name is written: in the project, or what was asked for, if alike."""
+    from cqdd_design.files import kind_by_ending, refuse_overwrite
+
+    path = project_folder() / name if target is None else target
+    refuse_overwrite(path, force=force)
+    kind_by_ending(path, (Path(name).suffix[1:],), Path(name).stem)
+    return path

@@ -176,7 +176,7 @@ def simulate(
         options=asked.options,
         progress=out.counting("gearboxes") if samples else None,
     )
-    file = write_simulation(result, target, force=force)
+    file = write_simulation(result, loaded.file_name, target, force=force)
     out.say(*_lines(result))
     out.wrote([file])
     out.warn(*result.warnings)

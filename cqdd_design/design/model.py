@@ -67,6 +67,7 @@ class Design(FrozenModel):
 
     _assumed: tuple[str, ...] = PrivateAttr(default=())
     _motor_place: str = PrivateAttr(default=IN_DESIGN)
+    _file: str = PrivateAttr(default="")
 
     def __repr__(self) -> str:
         """Its name and what one would say of it first; `to_mapping` has the rest."""
@@ -123,11 +124,7 @@ class Design(FrozenModel):
                 f"{self.reducer.ratio}; make them equal or leave requirements.ratio out"
             )
         self._refuse_contradictions()
-        if (
-            not self.name.strip(" .")
-            or len(self.name.encode("utf-8", "replace")) > _LONGEST_NAME
-            or any(c in '/\\:*?"<>|' or is_unprintable(c) for c in self.name)
-        ):
+        if not _is_part_of_file_names(self.name):
             raise ValueError(
                 f"name {self.name[:_LONGEST_NAME]!a} becomes part of file names; "
                 f"use letters, digits, blanks, '-' and '_', {_LONGEST_NAME} bytes at most"
@@ -150,7 +147,7 @@ class Design(FrozenModel):
 
     @classmethod
     def from_mapping(
-        cls, data: Mapping[str, Any], *, source: str = "design", si: bool = False
+        cls, data: Mapping[str, Any], *, source: str = "design", si: bool = False, file: str = ""
     ) -> Design:
         """Validate a nested mapping with the keys of a design file.
 
@@ -162,6 +159,8 @@ class Design(FrozenModel):
             What to call the input in messages (a file name).
         si : bool
             Accept SI floats for quantities.
+        file : str
+            Name without ending of the design's own file, if it is in one; see `file_name`.
 
         Returns
         -------
@@ -186,7 +185,17 @@ class Design(FrozenModel):
         design._assumed = tuple(
             key for key in design.dotted_keys() if key not in given and not key.startswith(below)
         )
+        if file != design.name and _is_part_of_file_names(file):
+            design._file = file
         return design
+
+    @property
+    def file_name(self) -> str:
+        """What its files are called: as the one that it was read from, or else by its name.
+
+        A copy of a design may still have the other's name in it, but no files of the other's.
+        """
+        return self._file or self.name
 
     @property
     def assumed(self) -> tuple[str, ...]:
@@ -281,6 +290,8 @@ class Design(FrozenModel):
         """The design of other values, with what this one read from files that it still names."""
         changed = Design.from_mapping(mapping, source=self.name, si=True)
         changed._motor_place = self._motor_place
+        if changed.name == self.name:
+            changed._file = self._file
         asked, new = self.requirements, changed.requirements
         if (new.duty_file, new.duty_columns) != (asked.duty_file, asked.duty_columns):
             return changed
@@ -298,6 +309,7 @@ class Design(FrozenModel):
         """The same design with what its duty's file says."""
         changed = self.unchecked_copy({"requirements": self.requirements.with_duty_log(log)})
         changed._assumed, changed._motor_place = self._assumed, self._motor_place
+        changed._file = self._file
         return changed
 
     def under_duty(self, log: DutyLog, file: str, columns: DutyColumns | None = None) -> Design:
@@ -338,6 +350,15 @@ class Design(FrozenModel):
         mapping = dump(self) | ({} if log is None else {"duty_digest": log.digest})
         text = json.dumps(mapping, sort_keys=True, ensure_ascii=False)
         return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _is_part_of_file_names(name: str) -> bool:
+    """Whether files of every system can be called so, with what is put behind it."""
+    return (
+        bool(name.strip(" ."))
+        and len(name.encode("utf-8", "replace")) <= _LONGEST_NAME
+        and not any(c in '/\\:*?"<>|' or is_unprintable(c) for c in name)
+    )
 
 
 def duty_keys(file: str, columns: DutyColumns | None = None) -> dict[str, Any]:

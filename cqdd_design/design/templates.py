@@ -163,7 +163,7 @@ def design_template() -> str:
         "cam_bearing": {"designation": "6904"},
         "ring": {"outer_diameter": "72 mm"},
     }
-    design = Design.from_mapping({"name": "my-gearbox", "reducer": reducer})
+    design = Design.from_mapping({"name": "design", "reducer": reducer})
     assumed = set(design.assumed)
     lines = [
         "# A design: what `cqdd-design check`, `report`, `export` and others read. Keys behind a #",
@@ -171,7 +171,8 @@ def design_template() -> str:
         "# such a design for what you require.",
         "",
     ]
-    given = {key for key in design.dotted_keys() if key not in assumed}
+    # Its name is that of the file, wherever it is put.
+    given = {key for key in design.dotted_keys() if key not in {*assumed, "name"}}
     lines += [*_tables(Design, design.to_mapping(), given), *_optional_tables(Design)]
     return "\n".join(lines) + "\n"
 
@@ -299,8 +300,8 @@ def examples() -> tuple[str, ...]:
     return tuple(sorted(one.name.removesuffix(".toml") for one in folder.iterdir()))
 
 
-def example_text(name: str) -> str:
-    """An example design, as its file is.
+def example_text(name: str, called: str = "") -> str:
+    """An example design, as its file is, or with another name in it for a file of that name.
 
     Raises
     ------
@@ -313,4 +314,5 @@ def example_text(name: str) -> str:
         hint = f", the nearest is {near[0]}" if near else ""
         raise CatalogError(f"there is no example '{name}'{hint}; there are {', '.join(known)}.")
     file = resources.files("cqdd_design.design") / _EXAMPLES / f"{name}.toml"
-    return file.read_text(encoding="utf-8")
+    text, given = file.read_text(encoding="utf-8"), f'name = "{name}"'
+    return text.replace(given, f"name = {json.dumps(called or name)}", 1)

@@ -49,7 +49,7 @@ def design_of_text(text: str, path: Path) -> Design:
 
 def _design(data: dict[str, Any], path: Path) -> Design:
     data.setdefault("name", path.stem)
-    design = Design.from_mapping(_migrated(data, path), source=str(path))
+    design = Design.from_mapping(_migrated(data, path), source=str(path), file=path.stem)
     # Of a file alone: whoever gives a command another motor means that one.
     if others := parts_not_asked_for(design.requirements, design.reducer, design.motor):
         raise listed(others, str(path))

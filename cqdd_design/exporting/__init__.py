@@ -40,7 +40,7 @@ __all__ = [
 
 def default_folder(design: Design) -> Path:
     """Where `export` writes when no folder is named: ``exports/<design name>``."""
-    return output_folder("exports") / design.name
+    return output_folder("exports") / design.file_name
 
 
 def export(
@@ -106,7 +106,7 @@ def export(
     made = _missing(target)
     placed: list[WrittenFile] = []
     try:
-        with staging_folder(target, design.name) as staging:
+        with staging_folder(target, design.file_name) as staging:
             job = ExportJob(machine, staging, tell, options, specimen or AS_DRAWN)
             for kind in wanted:
                 tell(f"writing {kind}")

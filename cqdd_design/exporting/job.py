@@ -54,7 +54,7 @@ class ExportJob:
 
         `within` names a folder below it, which need not exist yet.
         """
-        return self.folder / within / f"{self.design.name}{ending}"
+        return self.folder / within / f"{self.design.file_name}{ending}"
 
     @cached_property
     def actuator(self) -> ActuatorParameters:

@@ -205,6 +205,8 @@ def simulate(
         options=wanted.options,
         progress=progress,
     )
-    files = () if target is None else (write_simulation(found, target, force=force),)
+    files = (
+        () if target is None else (write_simulation(found, loaded.file_name, target, force=force),)
+    )
     warnings = (*map(of_arguments, wanted.warnings), *told, *found.warnings)
     return Simulated(loaded, warnings, found, files=files)

@@ -136,7 +136,7 @@ def write_report(
         A print is asked for and no browser is found, or it prints nothing.
     """
     browser = printing_browser() if form == "pdf" else None
-    target = path or output_folder("reports") / f"{design.name}.{form}"
+    target = path or output_folder("reports") / f"{design.file_name}.{form}"
     refuse_overwrite(target, force=force or path is None)
     progress("analysing loads and the planetary")
     machine = specimen.machine(design)

@@ -103,12 +103,14 @@ def _seeds(seed: int | None, samples: int | None) -> tuple[int, ...]:
 
 
 def write_simulation(
-    recording: Recording, path: Path | None = None, *, force: bool = False
+    recording: Recording, name: str, path: Path | None = None, *, force: bool = False
 ) -> WrittenFile:
     """Write a recording as ``.npz`` or ``.parquet``, by the name of its file.
 
     Parameters
     ----------
+    name : str
+        `Design.file_name` of the design.
     path : Path, optional
         Default ``exports/NAME-simulation.npz``, this function's own, which is replaced.
     force : bool
@@ -122,7 +124,7 @@ def write_simulation(
         For Parquet without pyarrow.
     """
     kind = simulation_kind(path, force=force)
-    target = path or output_folder("exports") / f"{recording.parameters[0].name}-simulation.npz"
+    target = path or output_folder("exports") / f"{name}-simulation.npz"
     writer = write_parquet if kind == "parquet" else write_npz
     return write_with(target, kind, lambda place: writer(place, recording))
 

@@ -79,7 +79,7 @@ def generate(
     data, warnings = run(
         specimen.machine(design), request, specimen=specimen, tell=tell, progress=progress
     )
-    target = folder or output_folder("exports") / f"{design.name}-torque"
+    target = folder or output_folder("exports") / f"{design.file_name}-torque"
     files = write_data(data, target, force=force or folder is None)
     facts = describe(data)
     told = _limits_met(facts)

@@ -92,3 +92,21 @@ def test_export_replaces_a_named_folder_only_by_force(cqdd, tmp_path, paper_desi
 def test_its_own_default_output_is_replaced(cqdd, paper_design_file):
     for _ in range(2):
         assert cqdd("export", paper_design_file, "--to", "dxf").code == 0
+
+
+def test_files_are_called_after_the_file_and_not_by_the_name_within(
+    cqdd, tmp_path, paper_design_file
+):
+    copy = tmp_path / "mine.toml"
+    copy.write_bytes(Path(paper_design_file).read_bytes())
+    done = cqdd("export", copy, "--to", "dxf,edm,bom,card")
+    assert done.code == 0, done.err
+    written = files_below(tmp_path)
+    assert len(written) > 6
+    assert all("cqdd-10" not in name for name in written)
+    folder = tmp_path / "exports" / "mine"
+    told = (folder / "edm" / "README.txt").read_text()
+    assert "mine-disc.dxf" in told
+    assert "cqdd-10" not in told
+    assert (folder / "edm" / "mine-disc.dxf").is_file()
+    assert (folder / "mine-bom.csv").is_file()

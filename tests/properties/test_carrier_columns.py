@@ -35,6 +35,7 @@ from cqdd_design.geometry.disc import (
 from cqdd_design.geometry.validate import validate_geometry
 from cqdd_design.roads.tolerance import tolerance
 from cqdd_design.solids.clocking import disc_groups
+from cqdd_design.solids.selection import cap_screw
 
 DESIGNS = Path(__file__).resolve().parents[2] / "designs"
 PAPER = load_design(DESIGNS / "cqdd-10.toml").replacing({"reducer.carrier.joint": "clamped"})
@@ -322,6 +323,7 @@ def test_feet_of_columns_against_a_rigid_body_on_springs() -> None:
 def test_a_screw_leaves_its_column_a_wall(diameter: float) -> None:
     screw = column_screw(diameter)
     assert screw.thread < screw.bore <= 0.6 * diameter + 1e-12
+    assert cap_screw(screw.thread, 0.0).thread == screw.thread
 
 
 def test_no_screw_goes_through_a_needle() -> None:

@@ -230,6 +230,29 @@ def test_files_of_windows_editors(tmp_path):
     assert path.read_text().startswith(PAPER.read_text()[:100])
 
 
+def test_files_of_a_copy_are_called_after_it_and_not_by_the_name_within(tmp_path):
+    """A copy with another's name within wrote over the other's report and exports."""
+    path = tmp_path / "knee.v2.toml"
+    path.write_bytes(PAPER.read_bytes())
+    design = load_design(path)
+    assert (design.name, design.file_name) == ("cqdd-10", "knee.v2")
+    assert design.sha256 == load_design(PAPER).sha256
+    changed = (
+        design.replacing({"reducer.disc_count": 3}),
+        design.leaving("reducer.balance.counterweights"),
+        design.with_motor("CubeMars RO100 KV55"),
+        design.with_duty_log(None),
+        design.model_copy(update={"environment": design.environment}),
+    )
+    assert {one.file_name for one in changed} == {"knee.v2"}
+    assert design.replacing({"name": "hip"}).file_name == "hip"
+    assert load_design(PAPER).file_name == load_design(PAPER).name
+    # What no system's files can be called does not become part of others'.
+    odd = tmp_path / ("x" * 250 + ".toml")
+    odd.write_bytes(PAPER.read_bytes())
+    assert load_design(odd).file_name == "cqdd-10"
+
+
 def test_missing_file_suggests_its_neighbour(tmp_path):
     (tmp_path / "cqdd-10.toml").write_text("")
     with pytest.raises(UsageError, match=r"did you mean .*cqdd-10\.toml"):

@@ -11,12 +11,17 @@ from legible import assert_legible, crossed, segments
 
 from cqdd_design.design import load_design
 from cqdd_design.exporting.edm.cut_facts import facts_of
-from cqdd_design.exporting.edm.flat_parts import flat_parts
+from cqdd_design.exporting.edm.flat_parts import flat_parts, reach_of
 from cqdd_design.exporting.options import DEFAULTS
 from cqdd_design.exporting.sheets import frame
 from cqdd_design.exporting.sheets.assembly_facts import AssemblyFacts
 from cqdd_design.exporting.sheets.canvas import render
-from cqdd_design.exporting.sheets.cut_sheet import SECTION, draw_sheet
+from cqdd_design.exporting.sheets.cut_sheet import (
+    MOST_REACH,
+    SECTION,
+    draw_sheet,
+    sheet_scale,
+)
 from cqdd_design.exporting.sheets.drawing import SheetDrawing
 from cqdd_design.exporting.sheets.edm_readme import readme_text
 from cqdd_design.exporting.sheets.end_plan import _round_row, drilled_size
@@ -39,6 +44,15 @@ NARROW = {
     "reducer.output_pins.circle_radius": "39.4 mm",
     "reducer.cam_bearing.designation": "16008",
     "reducer.ring.outer_diameter": "100.3 mm",
+}
+FILLS_THE_VIEW = {
+    "reducer.carrier.joint": "columns",
+    "reducer.carrier.column_diameter": "6 mm",
+    "reducer.cam_bearing.designation": "6803",
+    "reducer.ring_pitch_radius": "38 mm",
+    "reducer.ring.outer_diameter": "88 mm",
+    "reducer.output_pins.count": 7,
+    "reducer.output_pins.circle_radius": "22.3456 mm",
 }
 EXACT = "Dimensions in boxes are theoretically exact (ISO 1101)."
 
@@ -162,6 +176,16 @@ def test_the_section_of_a_flat_part_says_which_way_it_is_seen(three, monkeypatch
 def pocketed():
     paper = load_design(ROOT / "designs" / "cqdd-10.toml")
     return resolve(paper.replacing({"reducer.ring_type": "pinwheel"}))
+
+
+def test_a_disc_that_fills_its_view_stays_clear_of_where_its_columns_stand():
+    """The row that places the columns ran over the lobes at the view's upper left."""
+    paper = load_design(ROOT / "designs" / "cqdd-10.toml")
+    wide = resolve(paper.replacing(FILLS_THE_VIEW))
+    facts = facts_of(flat_parts(wide)[0], wide)
+    reach = 1e3 * sheet_scale(facts) * reach_of(facts.flat.shape.outer)
+    assert 0.99 * MOST_REACH < reach <= MOST_REACH
+    assert_legible(draw_sheet(facts))
 
 
 def test_pockets_have_their_zone_and_the_profile_lies_about_what_is_cut(pocketed):

@@ -180,7 +180,7 @@ def note_lines(
     holes = ", ".join(f"{count} x dia {size}" for size, count in sizes.items())
     start_sizes = sorted({f"{2.0 * _MM * s.radius:.2f}" for s in starts})
     return [
-        f"PART {design.name}-{flat.label}",
+        f"PART {design.file_name}-{flat.label}",
         UNITS_NOTE,
         f"MATERIAL {flat.material}" + (f" ({hardness})" if hardness else ""),
         f"THICKNESS {_MM * flat.thickness:g}",

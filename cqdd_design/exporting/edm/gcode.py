@@ -188,7 +188,7 @@ def _heading(
     whole = sum(contour_times(flat, len(passes)))
     side = _MM * blank_side(path)
     return [
-        f"PART {design.name}-{flat.label}, CUT {flat.quantity}",
+        f"PART {design.file_name}-{flat.label}, CUT {flat.quantity}",
         *flat.remarks,
         f"MATERIAL {flat.material}, THICKNESS {_MM * flat.thickness:g} MM",
         f"BLANK {side:.0f} X {side:.0f} MM ABOUT THE PART AXIS AT LEAST, CLAMPED OUTSIDE DIA "

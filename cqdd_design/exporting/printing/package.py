@@ -76,7 +76,7 @@ def refuse_metal(machine: Machine) -> None:
 def _no_plastic(design: Design) -> DesignError:
     known = ", ".join(f"'{name}'" for name in list(printed_materials())[:4])
     return DesignError(
-        f"{design.name}: no part is of a plastic to be printed or moulded; set "
+        f"{design.file_name}: no part is of a plastic to be printed or moulded; set "
         f"reducer.disc_material, reducer.ring_material or housing.material to one, such as "
         f"{known}."
     )

@@ -22,7 +22,7 @@ _WIDTH = 78
 
 def readme_text(design: Design, parts: Sequence[PrintedPart], test: Coupon | None) -> str:
     """Return the README of a package; `test` is None where no fit goes on a coupon."""
-    title = f"{design.name}: printed and moulded parts"
+    title = f"{design.file_name}: printed and moulded parts"
     lines = [title, "=" * len(title), ""]
     lines += _wrapped(
         "All files are in millimetres, each part in its own frame with its axis upright. STEP, STL "
@@ -30,7 +30,7 @@ def readme_text(design: Design, parts: Sequence[PrintedPart], test: Coupon | Non
         "hole compensation of the slicer on top. Drawn sizes are those of the STEP of the machine."
     )
     for one in parts:
-        lines += ["", *_heading(f"{design.name}, {one.drawn.name}"), *_part(one)]
+        lines += ["", *_heading(f"{design.file_name}, {one.drawn.name}"), *_part(one)]
     lines += ["", *_heading("Test coupon"), *_coupon(design, test)]
     lines += ["", f"Design {design.sha256[:16]}, cqdd-design {__version__}.", ""]
     return "\n".join(lines)
@@ -88,9 +88,9 @@ def _coupon(design: Design, test: Coupon | None) -> Iterator[str]:
         return
     sizes = ", ".join(f"{_MM * size:g}" for size in test.sizes)
     yield from _wrapped(
-        f"{design.name}-coupon.step and .3mf hold bores and pins of {sizes} mm, each in a row: the "
-        "number at the left is the nominal diameter, those below are by how many hundredths of a "
-        "millimetre each is drawn larger. Nothing in it is compensated. Print it as the parts will "
+        f"{design.file_name}-coupon.step and .3mf hold bores and pins of {sizes} mm, each in a "
+        "row: the number at the left is the nominal diameter, those below are by how many "
+        "hundredths of a millimetre each is drawn larger. Nothing in it is compensated. Print it as the parts will "
         "be, same material, layers and speed, and let it cool.",
     )
     if test.left_out:

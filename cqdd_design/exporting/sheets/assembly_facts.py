@@ -41,7 +41,7 @@ class AssemblyFacts:
     @property
     def number(self) -> str:
         """Of the drawing, and the stem of its files."""
-        return f"{self.design.name}-assembly"
+        return f"{self.design.file_name}-assembly"
 
     @property
     def mass(self) -> float:

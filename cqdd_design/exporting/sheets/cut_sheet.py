@@ -118,7 +118,8 @@ def _holes(sheet: SheetDrawing, facts: CutFacts, holes: list[Circle]) -> None:
         along = cmath.exp(1j * cmath.phase(complex(*hole.centre)))
         sheet.line(centre - arm * along, centre + arm * along, AXIS)
     output, columns = _by_use(facts, holes)
-    left = complex(FRONT.real - 98.0, FRONT.imag + MOST_REACH + 20.0)
+    # As high as the frame lets them: the lower row passes over a disc that fills the view.
+    left = complex(FRONT.real - 98.0, FRONT.imag + MOST_REACH + 32.0)
     for alike, toward, corner in ((output, 125.0, left), (columns, 160.0, left - 24.0j)):
         if not alike:
             continue

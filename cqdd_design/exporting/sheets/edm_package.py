@@ -47,7 +47,7 @@ def _sheets(job: ExportJob, facts: CutFacts) -> list[WrittenFile]:
     from cqdd_design.exporting.sheets.cut_sheet import draw_sheet
 
     label = facts.flat.label
-    title = f"{job.design.name}-{label}: cut sheet"
+    title = f"{job.design.file_name}-{label}: cut sheet"
     with reproducible():
         canvas = draw_sheet(facts)
     return [

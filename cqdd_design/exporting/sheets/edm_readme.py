@@ -46,8 +46,8 @@ def readme_text(parts: Sequence[CutFacts], options: ExportOptions) -> str:
     design = parts[0].design
     edm = design.edm
     lines = [
-        f"{design.name}: parts for wire EDM",
-        "=" * (len(design.name) + 20),
+        f"{design.file_name}: parts for wire EDM",
+        "=" * (len(design.file_name) + 20),
         "",
         *_paragraph(
             "All files are in millimetres, the origin on the axis of the part, seen from above "
@@ -130,7 +130,7 @@ def _part_lines(parts: Sequence[CutFacts]) -> list[str]:
     for facts in parts:
         flat = facts.flat
         lines += _section(
-            f"{facts.design.name}-{flat.label}.dxf",
+            f"{facts.design.file_name}-{flat.label}.dxf",
             [
                 f"Quantity {flat.quantity}, plate {_MM * flat.thickness:g} mm thick "
                 f"({facts.thickness_text.replace(chr(0xB1), '+-')}), "

@@ -68,7 +68,7 @@ def _title_block(sheet: SheetDrawing, facts: CutFacts) -> None:
         ],
     ]
     words = f"{_title(facts)}; {facts.moulded or 'cut by wire EDM'}"
-    draw_title_block(sheet, design, f"{design.name}-{flat.label}", words, rows)
+    draw_title_block(sheet, design, f"{design.file_name}-{flat.label}", words, rows)
 
 
 def _surfaces(facts: CutFacts) -> str:
@@ -93,7 +93,7 @@ def notes(facts: CutFacts) -> list[str]:
 
 def _moulded_notes(facts: CutFacts) -> list[str]:
     """Of a plastic, which no wire cuts."""
-    name = facts.design.name
+    name = facts.design.file_name
     return [
         *facts.remarks,
         f"{facts.moulded.capitalize().replace('fdm', 'FDM')}: from the files of "
@@ -124,9 +124,9 @@ def _cut_notes(facts: CutFacts) -> list[str]:
     said = [
         *facts.remarks,
         _curve(facts),
-        f"Cut from the file {facts.design.name}-{flat.label}.dxf, layers CUT_OUTER and CUT_INNER: "
-        "nominal finished contour without kerf offset. WIRE_PATH is the centre of the wire on the "
-        f"finishing cut, {offset:g} mm into the waste.",
+        f"Cut from the file {facts.design.file_name}-{flat.label}.dxf, layers CUT_OUTER and "
+        "CUT_INNER: nominal finished contour without kerf offset. WIRE_PATH is the centre of the "
+        f"wire on the finishing cut, {offset:g} mm into the waste.",
         f"Wire \u00d8{_MM * edm.wire_diameter:g} mm, gap {_MM * edm.spark_gap:g} mm.",
         f"Contour as written, read back and measured: {facts.fit_text[0]}.",
         f"{facts.fit_text[1].capitalize()}.",

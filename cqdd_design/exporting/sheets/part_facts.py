@@ -43,7 +43,7 @@ class PartFacts:
     @property
     def number(self) -> str:
         """Of the drawing, and the stem of its files."""
-        return f"{self.design.name}-{file_label(self.part.name)}"
+        return f"{self.design.file_name}-{file_label(self.part.name)}"
 
     @cached_property
     def outside(self) -> float:

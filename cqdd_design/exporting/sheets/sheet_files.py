@@ -53,7 +53,7 @@ def sheets_of(job: ExportJob) -> Iterator[tuple[str, str, SheetDrawing]]:
         label = file_label(part.name)
         if label in flat:
             facts = facts_of(flat[label], job.machine, job.options)
-            yield f"{job.design.name}-{label}", "cut sheet", draw_cut_sheet(facts)
+            yield f"{job.design.file_name}-{label}", "cut sheet", draw_cut_sheet(facts)
         else:
             made = PartFacts(part, job.design)
             yield made.number, "sheet of the part", draw_part(made)

@@ -63,7 +63,7 @@ def part_view(flat: FlatPart, design: Design) -> str:
     kind = "ring" if flat.label == "ring" else "disc"
     shapes = [_part(flat.shape, kind), _axes(0j, reach_of(flat.shape.outer))]
     caption = (
-        f"{design.name} {flat.label}, {flat.quantity} off",
+        f"{design.file_name} {flat.label}, {flat.quantity} off",
         f"{flat.material}, {_MM * flat.thickness:g} mm thick",
     )
     return _document(shapes, reach_of(flat.shape.outer), caption)
@@ -89,7 +89,7 @@ def front_view(machine: Machine) -> str:
     reach = reach_of(ring.outer)
     shapes += [_axes(0j, reach), _axes(complex(reducer.eccentricity), reach / 4.0)]
     caption = (
-        f"{design.name}: {reducer.ratio} lobes in {reducer.ring_tooth_count} teeth",
+        f"{design.file_name}: {reducer.ratio} lobes in {reducer.ring_tooth_count} teeth",
         f"eccentricity {_MM * reducer.eccentricity:g} mm, "
         f"ring {_MM * reducer.ring.outer_diameter:g} mm outside",
     )

@@ -57,7 +57,7 @@ class Card:
 
 def export_card(job: ExportJob) -> tuple[WrittenFile, ...]:
     """Write ``<name>-card.yaml`` and ``<name>-card.md``."""
-    card = actuator_card(job.actuator, job.design.name, design_sha256=job.design.sha256)
+    card = actuator_card(job.actuator, job.design.file_name, design_sha256=job.design.sha256)
     return (
         write_atomically(job.path("-card.yaml"), card_yaml(card), "card"),
         write_atomically(job.path("-card.md"), card_markdown(card), "card"),

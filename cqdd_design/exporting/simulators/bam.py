@@ -60,7 +60,7 @@ UNITS = {
 
 def export_bam(job: ExportJob) -> tuple[WrittenFile, ...]:
     """Write ``<name>-bam.json``."""
-    document = bam_document(job.actuator, job.design.name, design_sha256=job.design.sha256)
+    document = bam_document(job.actuator, job.design.file_name, design_sha256=job.design.sha256)
     text = json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
     return (write_atomically(job.path("-bam.json"), text, "bam"),)
 

@@ -39,7 +39,7 @@ _UNTOUCHED = {"contype": "0", "conaffinity": "0"}
 
 def export_mjcf(job: ExportJob) -> tuple[WrittenFile, ...]:
     """Write ``<name>-test.xml``, which loads by itself, and ``<name>.xml``, to be included."""
-    model = MjcfActuator(job.actuator, job.design.name, design_sha256=job.design.sha256)
+    model = MjcfActuator(job.actuator, job.design.file_name, design_sha256=job.design.sha256)
     return (
         write_atomically(job.path("-test.xml"), model_text(model), "mjcf"),
         write_atomically(job.path(".xml"), fragment_text(model), "mjcf"),

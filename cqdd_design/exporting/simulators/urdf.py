@@ -31,7 +31,7 @@ DRAKE = "http://drake.mit.edu"
 
 def export_urdf(job: ExportJob) -> tuple[WrittenFile, ...]:
     """Write ``<name>.urdf``."""
-    text = urdf_text(job.actuator, job.design.name, design_sha256=job.design.sha256)
+    text = urdf_text(job.actuator, job.design.file_name, design_sha256=job.design.sha256)
     return (write_atomically(job.path(".urdf"), text, "urdf"),)
 
 

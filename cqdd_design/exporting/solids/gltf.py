@@ -95,7 +95,7 @@ def scene(
         document |= {"extensionsUsed": extensions, "extensionsRequired": extensions}
     document |= {
         "scene": 0,
-        "scenes": [{"name": design.name, "nodes": [0]}],
+        "scenes": [{"name": design.file_name, "nodes": [0]}],
         "nodes": [nodes[0] | {"children": list(range(1, len(nodes)))}, *nodes[1:]],
         "meshes": meshes,
         "materials": materials,

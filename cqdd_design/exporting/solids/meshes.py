@@ -136,7 +136,7 @@ def _model_xml(design: Design, parts: Sequence[Part]) -> str:
         '<?xml version="1.0" encoding="UTF-8"?>\n'
         '<model unit="millimeter" xml:lang="en-US" '
         'xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">\n'
-        f'<metadata name="Title">{escape(design.name)}</metadata>\n'
+        f'<metadata name="Title">{escape(design.file_name)}</metadata>\n'
         f'<metadata name="Application">{_GENERATOR}</metadata>\n'
         f'<metadata name="Description">design sha256 {design.sha256}</metadata>\n'
         f'<resources>\n<basematerials id="1">{materials}</basematerials>\n'
@@ -185,7 +185,7 @@ def write_glb(design: Design, parts: Sequence[Part], path: Path) -> WrittenFile:
     viewer can turn the mechanism. Errors as `write_stl`.
     """
     nodes: list[dict[str, Any]] = [
-        {"name": design.name, "rotation": [-_QUARTER_TURN, 0.0, 0.0, _QUARTER_TURN]}
+        {"name": design.file_name, "rotation": [-_QUARTER_TURN, 0.0, 0.0, _QUARTER_TURN]}
     ]
     meshes, materials = [], []
     buffer = gltf.Buffer()

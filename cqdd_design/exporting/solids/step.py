@@ -101,7 +101,7 @@ def write_part_step(design: Design, part: Part, path: Path, schema: str = "AP214
     cadquery = import_cadquery()
     if schema == "AP242":
         return _write_stated(design, part, path)
-    assembly = cadquery.Assembly(name=design.name)
+    assembly = cadquery.Assembly(name=design.file_name)
     assembly.add(part.solid, name=part.name, color=cadquery.Color(*part.colour, 1.0))
     return _write(assembly, design, [part], path, schema)
 
@@ -237,7 +237,7 @@ def _unmangled(content: bytes) -> str:
 
 def _header(design: Design, file_name: str) -> str:
     description = (
-        f"cycloidal gearbox {design.name}, ratio {design.reducer.ratio}, "
+        f"cycloidal gearbox {design.file_name}, ratio {design.reducer.ratio}, "
         f"design sha256 {design.sha256}"
     )
     return (

@@ -20,7 +20,7 @@ from cqdd_design.results import Check
 
 def downloads_view(results: ReportInput) -> Values:
     """The design, its checks and its verdict as files; and links to those of the same run."""
-    name, design = results.design.name, results.design
+    name, design = results.design.file_name, results.design
     verdict = json.dumps(results.verdict.to_dict(), indent=1, sort_keys=True, allow_nan=False)
     files = (
         (
