@@ -232,9 +232,10 @@ class Output:
             self._bar.wipe()
 
     def wrote(self, files: Iterable[WrittenFile]) -> None:
-        """Tell which files were written."""
+        """Tell which files were written, and which of them in place of another."""
         for file in files:
-            self.say(f"wrote {file.path} ({file.kind}, {file.bytes:,} bytes)")
+            older = ", in place of an older one" if file.replaced else ""
+            self.say(f"wrote {file.path} ({file.kind}, {file.bytes:,} bytes{older})")
 
     def document(
         self,

@@ -39,7 +39,7 @@ __all__ = [
 
 
 def default_folder(design: Design) -> Path:
-    """Where `export` writes when no folder is named: ``exports/<design name>``."""
+    """Where `export` writes when no folder is named: ``exports``, by the design's file."""
     return output_folder("exports") / design.file_name
 
 
@@ -125,6 +125,7 @@ def export(
             ]
             for path in sorted(below):
                 ensure_folder(path)
+            placed = [dataclasses.replace(one, replaced=one.path.exists()) for one in placed]
             for one in placed:
                 _move(staging / one.path.relative_to(target), one.path)
             made = []

@@ -10,7 +10,7 @@ import stat
 import tempfile
 import unicodedata
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from cqdd_design.errors import UsageError
@@ -43,10 +43,14 @@ class WrittenFile:
     kind: str
     bytes: int
     sha256: str
+    replaced: bool = field(default=False, compare=False)
+    """Whether there was a file of that name before."""
 
     def to_dict(self) -> dict[str, object]:
         """The JSON form of interfaces: path, kind, bytes, sha256."""
-        return vars(self) | {"path": str(self.path)}
+        told = vars(self) | {"path": str(self.path)}
+        del told["replaced"]
+        return told
 
 
 def _refusal(path: Path, error: OSError) -> UsageError:
@@ -186,15 +190,11 @@ def write_atomically(path: Path, content: bytes | str, kind: str) -> WrittenFile
 
 def write_with(path: Path, kind: str, writer: Callable[[Path], object]) -> WrittenFile:
     """Let `writer(temporary_path)` write the file, then put it in place atomically."""
+    before = path.exists()
     with atomic_path(path) as temporary:
         writer(temporary)
-    return describe_file(path, kind)
-
-
-def describe_file(path: Path, kind: str) -> WrittenFile:
-    """Size and SHA-256 of an existing file."""
     data = path.read_bytes()
-    return WrittenFile(path, kind, len(data), hashlib.sha256(data).hexdigest())
+    return WrittenFile(path, kind, len(data), hashlib.sha256(data).hexdigest(), before)
 
 
 def _umask() -> int:

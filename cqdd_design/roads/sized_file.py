@@ -8,7 +8,7 @@ from pathlib import Path
 
 from cqdd_design.design import Design, load_design, save_design
 from cqdd_design.errors import UsageError
-from cqdd_design.files import WrittenFile, atomic_path, describe_file
+from cqdd_design.files import WrittenFile, write_with
 from cqdd_design.sizing.result import Cost
 
 _SCREENED = "# No verdict has seen this design: closed forms alone chose it, see `check`.\n"
@@ -36,14 +36,16 @@ def write_fresh(
     judged : bool
         Whether a verdict has seen the design.
     """
-    with atomic_path(path) as temporary:
+
+    def write(temporary: Path) -> None:
         temporary.unlink()
         save_design(temporary, design, comments=origins)
         first = "" if judged else _SCREENED
         last = "".join([f"{_COSTS}\n", *(f"{_COST}{one.told}\n" for one in costs)])
         content = first.encode() + temporary.read_bytes() + (last if costs else "").encode()
         temporary.write_bytes(content + f"{STAMP}{_digest(content)}\n".encode())
-    return describe_file(path, "design")
+
+    return write_with(path, "design", write)
 
 
 def refuse_edited(path: Path) -> None:

@@ -110,3 +110,17 @@ def test_files_are_called_after_the_file_and_not_by_the_name_within(
     assert "cqdd-10" not in told
     assert (folder / "edm" / "mine-disc.dxf").is_file()
     assert (folder / "mine-bom.csv").is_file()
+
+
+def test_what_is_replaced_is_said(cqdd, tmp_path, paper_design_file):
+    words = ("export", paper_design_file, "--to", "bom")
+    assert "in place of" not in cqdd(*words).out
+    again = cqdd(*words)
+    (line,) = (line for line in again.out.splitlines() if line.startswith("wrote "))
+    assert line.endswith("bytes, in place of an older one)")
+    words = ("size", "--quick", "--ratio", "10")
+    assert "in place of" not in cqdd(*words).out
+    assert "in place of an older one" in cqdd(*words).out
+    words = ("new", "motor", "--force")
+    assert "in place of" not in cqdd(*words).out
+    assert "in place of an older one" in cqdd(*words).out

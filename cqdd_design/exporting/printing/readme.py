@@ -90,8 +90,8 @@ def _coupon(design: Design, test: Coupon | None) -> Iterator[str]:
     yield from _wrapped(
         f"{design.file_name}-coupon.step and .3mf hold bores and pins of {sizes} mm, each in a "
         "row: the number at the left is the nominal diameter, those below are by how many "
-        "hundredths of a millimetre each is drawn larger. Nothing in it is compensated. Print it as the parts will "
-        "be, same material, layers and speed, and let it cool.",
+        "hundredths of a millimetre each is drawn larger. Nothing in it is compensated. Print it "
+        "as the parts will be, same material, layers and speed, and let it cool.",
     )
     if test.left_out:
         left = ", ".join(f"{_MM * size:g}" for size in test.left_out)
