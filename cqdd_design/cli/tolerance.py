@@ -6,12 +6,14 @@ from typing import TYPE_CHECKING, Annotated
 
 from cqdd_design.cli.options import (
     DesignFile,
+    NamedMotor,
+    OwnMotor,
     option,
     parse_option,
     parse_positive,
     quantity_option,
 )
-from cqdd_design.cli.session import INTERRUPTED_WITH_RESULTS, Output
+from cqdd_design.cli.session import INTERRUPTED_WITH_RESULTS, Output, read_design
 from cqdd_design.cli.tables import folded, number, table
 from cqdd_design.terms import term
 
@@ -45,15 +47,16 @@ def tolerance(
     scheduler: Annotated[
         str | None, option("ADDRESS", "Dask scheduler to work on, as tcp://HOST:8786.")
     ] = None,
+    motor: NamedMotor = None,
+    motor_file: OwnMotor = None,
 ) -> int:
     """Toleranced gearboxes over a whole output turn: distributions and ranking."""
-    from cqdd_design.design import load_design
     from cqdd_design.roads.tolerance import tolerance as drawn
     from cqdd_design.units import TEMPERATURE, TORQUE
 
     asked_torque = parse_positive("--torque", torque, TORQUE)
     parts_at = parse_option("--temperature", temperature, TEMPERATURE)
-    loaded = load_design(design)
+    loaded = read_design(out, design, motor, motor_file)
     if scheduler is None:
         out.compile_ahead(loaded, ensembles=True)
     result = drawn(

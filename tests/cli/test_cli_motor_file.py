@@ -169,6 +169,7 @@ COMMANDS = [
     ("bench", "DESIGN"),
     ("calibrate", "DESIGN"),
     ("simulate", "DESIGN"),
+    ("tolerance", "DESIGN"),
     ("compare", "DESIGN"),
     ("inertia", "DESIGN"),
     ("export", "DESIGN"),

@@ -188,6 +188,28 @@ def test_a_disc_that_fills_its_view_stays_clear_of_where_its_columns_stand():
     assert_legible(draw_sheet(facts))
 
 
+def test_the_table_of_cuts_has_every_hole():
+    """Of sixteen contours five were left to the file."""
+    wide = resolve(load_design(ROOT / "designs" / "cqdd-10.toml").replacing(FILLS_THE_VIEW))
+    narrow = resolve(load_design(ROOT / "designs" / "cqdd-10.toml").replacing(NARROW))
+    for machine in (wide, narrow):
+        facts = facts_of(flat_parts(machine)[0], machine)
+        labels = draw_sheet(facts).labels
+        drawn = sorted((label.y, label.x, label.text) for label in labels)
+        tops = [x for _, x, text in drawn if text == "centre X"]
+        rows = {}
+        for y, x, text in drawn:
+            half = sum(x > top - 31.0 for top in tops)
+            rows.setdefault((half, round(y, 3)), []).append(text)
+        holes = facts.flat.shape.holes
+        assert len(holes) + 1 > 12
+        for number, hole in enumerate(holes, start=1):
+            (row,) = (row for row in rows.values() if row[1:2] == [str(number)] and len(row) == 8)
+            centre = [f"{round(1e3 * value, 4) + 0.0:.4f}" for value in hole.centre]
+            assert row[2:5] == [f"\u00d8{2e3 * hole.radius:.4f}", *centre]
+        assert not any("more" in label.text for label in labels)
+
+
 def test_pockets_have_their_zone_and_the_profile_lies_about_what_is_cut(pocketed):
     """H7 of the pockets lay outside of the profile's zone about the nominal contour."""
     facts = facts_of(flat_parts(pocketed)[-1], pocketed)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from cqdd_design.exporting.edm.cut_facts import CUT_FINISH
 from cqdd_design.exporting.edm.wire_path import contour_name, contour_size
@@ -28,13 +28,40 @@ _MM = 1e3
 _NOTES = complex(308.0, 280.0)
 _NOTE_WIDTH = 99.0
 _TABLE = complex(LEFT + 4.0, 78.0)
-_MOST_ROWS = 12
-_CUT_COLUMNS = {
-    **{"cut": 0.0, "contour": 10.0, "size": 42.0, "centre X": 74.0, "centre Y": 96.0},
-    **{"start X": 118.0, "start Y": 140.0, "start \u00d8": 162.0},
-}
-"""Columns of the table of cuts, and where they begin, mm."""
-_CUTS_WIDTH = 182.0
+_GAP = 2.0
+"""Between the halves of a long table, mm."""
+
+
+class _Table(NamedTuple):
+    """How the table of cuts is drawn: rows of a block at most, columns and where they begin, mm."""
+
+    blocks: int
+    most: int
+    pitch: float
+    width: float
+    columns: dict[str, float]
+
+
+_SHORT = _Table(
+    1,
+    12,
+    4.6,
+    182.0,
+    {
+        **{"cut": 0.0, "contour": 10.0, "size": 42.0, "centre X": 74.0, "centre Y": 96.0},
+        **{"start X": 118.0, "start Y": 140.0, "start \u00d8": 162.0},
+    },
+)
+_LONG = _Table(
+    2,
+    15,
+    4.0,
+    101.0,
+    {
+        **{"cut": 0.0, "no.": 6.0, "size": 14.5, "centre X": 30.0, "centre Y": 45.0},
+        **{"start X": 60.0, "start Y": 75.0, "start \u00d8": 90.0},
+    },
+)
 
 
 def draw_frame(sheet: SheetDrawing, facts: CutFacts) -> None:
@@ -176,23 +203,33 @@ def _curve(facts: CutFacts) -> str:
 
 
 def _cuts(sheet: SheetDrawing, facts: CutFacts) -> None:
-    """Table of contours in the order they are cut."""
-    rows = [tuple(_CUT_COLUMNS), *cut_rows(facts)]
-    pitch = 4.6
+    """Table of contours in the order they are cut, a long one in two halves."""
+    rows = cut_rows(facts)
+    table = _SHORT if len(rows) <= _SHORT.most else _LONG
     sheet.text(_TABLE + 2.0j, "CUTS IN ORDER, mm FROM THE AXIS OF THE PART", 3.0)
-    for number, row in enumerate(rows):
-        y = _TABLE - 1j * (number + 1) * pitch
-        for x, words in zip(_CUT_COLUMNS.values(), row, strict=True):
+    each = -(-len(rows) // table.blocks)
+    for block in range(table.blocks):
+        corner = _TABLE + block * (table.width + _GAP)
+        _cuts_block(sheet, table, corner, rows[block * each : (block + 1) * each])
+
+
+def _cuts_block(
+    sheet: SheetDrawing, table: _Table, corner: complex, rows: list[tuple[str, ...]]
+) -> None:
+    """Rows under their headings, below a corner of the page."""
+    for number, row in enumerate([tuple(table.columns), *rows], start=1):
+        y = corner - 1j * number * table.pitch
+        for x, words in zip(table.columns.values(), row, strict=True):
             sheet.text(y + x + 1.0 + 1.2j, words, SMALL)
-        sheet.line(y, y + _CUTS_WIDTH)
-    sheet.line(_TABLE, _TABLE + _CUTS_WIDTH)
-    for x in (0.0, _CUTS_WIDTH):
-        sheet.line(_TABLE + x, _TABLE + x - 1j * len(rows) * pitch)
+        sheet.line(y, y + table.width)
+    sheet.line(corner, corner + table.width)
+    for x in (0.0, table.width):
+        sheet.line(corner + x, corner + x - 1j * (len(rows) + 1) * table.pitch)
 
 
 def cut_rows(facts: CutFacts) -> list[tuple[str, ...]]:
-    """Rows of the table of cuts; of very many holes the first and the last."""
-    flat = facts.flat
+    """Rows of the table of cuts; of more holes than two halves hold the first and the last."""
+    flat, most = facts.flat, _LONG.blocks * _LONG.most
     rows = []
     for step, number in enumerate(flat.cut_order, start=1):
         contour, path = flat.contours[number], facts.paths[number]
@@ -201,9 +238,12 @@ def cut_rows(facts: CutFacts) -> list[tuple[str, ...]]:
         places = [_place(v) for at in (centre, path.start) for v in (at.real, at.imag)]
         hole = f"{_MM * path.start_diameter:.2f}"
         rows.append((str(step), contour_name(number), size, *places, hole))
-    if len(rows) > _MOST_ROWS:
-        skipped = ("...", f"{len(rows) - _MOST_ROWS + 1} more: see the DXF", "", "", "", "", "", "")
-        rows = [*rows[: _MOST_ROWS - 2], skipped, rows[-1]]
+    if len(rows) > _SHORT.most:
+        short = (row[1].removeprefix("inner contour ").removesuffix(" contour") for row in rows)
+        rows = [(row[0], name, *row[2:]) for row, name in zip(rows, short, strict=True)]
+    if len(rows) > most:
+        skipped = ("...", f"{len(rows) - most + 1} more: see the DXF", "", "", "", "", "", "")
+        rows = [*rows[: most - 2], skipped, rows[-1]]
     return rows
 
 
