@@ -254,17 +254,31 @@ def _more_again(
     too_much = {key: getattr(asked, key) for key in (PEAK, CONTINUOUS) if key not in asked.derived}
     if isinstance(refusal, MotorShortError) and PEAK_LINE in refusal.binding:
         too_much[PEAK] = asked.ratio * refusal.torque
+    held: set[str] = set()
     for _ in range(_RISES):
-        fits = found.sizing.design.requirements
-        tried = {key: _between(getattr(fits, key), most) for key, most in too_much.items()}
-        if all(getattr(fits, key) == torque for key, torque in tried.items()):
+        fits = {key: getattr(found.sizing.design.requirements, key) for key in too_much}
+        steps = {key: _between(fits[key], most) for key, most in too_much.items()}
+        raised = {key for key, torque in steps.items() if torque != fits[key]}
+        if not raised:
             break
-        more = _tried(hunt, asked.unchecked_copy(tried)).found
-        if more is None:
-            too_much = tried
-        else:
-            found = more
+        # What the motor itself falls short of does not keep the other torque down.
+        raised -= held if raised - held else set()
+        way = _tried(hunt, asked.unchecked_copy(fits | {key: steps[key] for key in raised}))
+        if way.found is not None:
+            found = way.found
+            continue
+        alone = _short_alone(way.refusal) & raised
+        if raised - alone:
+            held |= alone
+        too_much |= {key: steps[key] for key in alone or raised}
     return found
+
+
+def _short_alone(refusal: InfeasibleError | None) -> set[str]:
+    """The torque of which less by itself would be enough, if there is one."""
+    if not isinstance(refusal, SizingInfeasibleError) or not refusal.binding:
+        return set()
+    return {torque for torque, lines in _ALONE.items() if set(refusal.binding) <= lines}
 
 
 def _between(fits: float, too_much: float) -> float:

@@ -290,6 +290,38 @@ def test_torques_that_are_told_are_nearly_the_most(monkeypatch, bears, holds):
     assert {lasting for _, lasting in tried} == {free.requirements.continuous_torque}
 
 
+@pytest.mark.parametrize(
+    ("line", "low", "most"),
+    [("MOTOR-CONTINUOUS", (15.0, 2.0), (44.0, 2.05)), ("MOTOR-PEAK", (15.0, 2.0), (15.2, 5.5))],
+)
+def test_what_the_motor_cannot_do_does_not_keep_the_other_torque_down(monkeypatch, line, low, most):
+    """Heat left 2.85 N m of 6.76 for ever, and 24.2 N m of 29 beside it that bore more."""
+    bears, holds = most
+    tried = []
+
+    def way(hunt, own):
+        tried.append((own.peak_torque, own.continuous_torque))
+        torques = {"peak_torque": own.peak_torque, "continuous_torque": own.continuous_torque}
+        if own.peak_torque <= bears and own.continuous_torque <= holds:
+            return nearest._Way(hunt, found(**torques), None)
+        own_fault = own.continuous_torque > holds if "CONT" in line else own.peak_torque > bears
+        return nearest._Way(hunt, None, refused(line if own_fault else "YIELD"))
+
+    monkeypatch.setattr(nearest, "_tried", way)
+    hunt = new_hunt(requirements_from_mapping(ASKED), lambda _: None, None, None, "mass")
+    start = found(peak_torque=low[0], continuous_torque=low[1])
+    told = nearest._more_again(hunt, start, refused(line)).sizing.design.requirements
+    assert told.peak_torque > 0.75 * bears
+    assert told.continuous_torque > 0.75 * holds
+    assert len(tried) == nearest._RISES
+    # Once the other is as it was asked for, the one that is short is tried again.
+    tried.clear()
+    start = found(peak_torque=45.0, continuous_torque=0.5)
+    nearest._more_again(hunt, start, refused("MOTOR-CONTINUOUS"))
+    assert {peak for peak, _ in tried} == {45.0}
+    assert len({lasting for _, lasting in tried}) == nearest._RISES
+
+
 def test_torques_that_nobody_stated_are_not_looked_for(monkeypatch):
     given = {"ratio": 16}
     error, tried = said(monkeypatch, lambda _: False, lambda *_: refused("YIELD"), given)
