@@ -4,9 +4,9 @@
 
 The seeds are those of `sizing_yes.py`. Each is sized as by a user, in a process of its own; of a
 refusal every requirement that it names is sized as by a user too, and then, by the same search
-without the ways out that a refusal looks for, the torques 2 % greater and the ring or length 2 %
-less (but not beyond what was asked). Exit code 1 where what is named does not fit, or what is
-nearer does: then the refusal could have named that.
+without the ways out that a refusal looks for, the torques or the speed 2 % greater and the ring or
+length 2 % less (but not beyond what was asked). Exit code 1 where what is named does not fit, or
+what is nearer does: then the refusal could have named that.
 """
 
 from __future__ import annotations
@@ -65,6 +65,11 @@ def ways(asked: dict[str, str], told: dict[str, float | None]) -> Iterator[Way]:
         if needed is not None:
             less = max((1.0 - NEARER) * needed, _number(asked[key]))
             yield Way(f"{key} {needed:g} mm", {key: f"{needed} mm"}, {key: f"{less:.6g} mm"})
+    speed = told.get("most_continuous_speed_rpm")
+    if speed is not None:
+        key, most = "continuous-speed", _number(asked["continuous-speed"])
+        more = min((1.0 + NEARER) * speed, most)
+        yield Way(f"{key} {speed:g} rpm", {key: f"{speed:g} rpm"}, {key: f"{more:.6g} rpm"})
     if told["ratio_needed"] is not None:
         ratio = int(told["ratio_needed"])
         yield Way(f"ratio {ratio}", {"ratio": str(ratio)}, {"ratio": str(ratio - 1)})

@@ -107,11 +107,13 @@ def what_it_can(
         speed = requirements.held_speed / requirements.ratio
         most = _SPARE * float(held_torque(actuator, speed)[0])
         if most <= 0.0:
+            stated = requirements.continuous_speed is not None
+            slower = "lower continuous_speed, state" if stated else "state continuous_speed,"
             raise TooHotError(
                 f"motor '{machine.motor.name}' holds no torque for ever at "
                 f"{requirements.held_speed * 30.0 / math.pi:.0f} rpm in still air of "
                 f"{actuator.thermal.ambient:g} degC: its own drag and the gearbox's heat it to its "
-                "limit; state continuous_speed, a duty, or another motor."
+                f"limit; {slower} a duty, or take another motor."
             )
         able = min(
             rounded_down(most, _DIGITS),

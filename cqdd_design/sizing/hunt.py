@@ -135,6 +135,9 @@ class Hunt:
         Goals that were taken to meet something that is asked for.
     sturdier : float
         Reserve at the peak that something takes which is asked for: stiffness, or a stop.
+    held_up_to : float
+        Input speed up to which a motor that is far from it holds the continuous torque, rpm; 0
+        where it does not turn with it.
     yielding : tuple of array, optional
         Outputs of gearboxes whose discs and ring yield over those of rigid ones, at the continuous
         and at the peak torque, of the last design that was looked at with them.
@@ -186,6 +189,7 @@ class Hunt:
     pins: tuple[bool, ...] = (False,)
     tried: set[Goal] = field(default_factory=set)
     sturdier: float = 1.0
+    held_up_to: float = 0.0
     yielding: tuple[NDArray[np.float64], ...] | None = None
     yielding_at: tuple[float, ...] = ()
     rigid: tuple[Machine, tuple[NDArray[np.float64], ...]] | None = None

@@ -75,6 +75,9 @@ class SizingInfeasibleError(InfeasibleError):
     ratio_needed : int or None
         Least ratio at which the motor reaches the torque in the same space; looked for only where
         the motor falls short through any gearbox.
+    most_speed : float or None
+        Input speed up to which the motor holds the continuous torque for ever in the same space,
+        rpm; looked for only where that alone is short.
     """
 
     def __init__(
@@ -87,6 +90,7 @@ class SizingInfeasibleError(InfeasibleError):
         outer_diameter_needed: float | None = None,
         length_needed: float | None = None,
         ratio_needed: int | None = None,
+        most_speed: float | None = None,
     ) -> None:
         super().__init__(message)
         self.binding = binding
@@ -95,6 +99,7 @@ class SizingInfeasibleError(InfeasibleError):
         self.outer_diameter_needed = outer_diameter_needed
         self.length_needed = length_needed
         self.ratio_needed = ratio_needed
+        self.most_speed = most_speed
 
     def to_dict(self) -> dict[str, object]:
         """The JSON form."""
@@ -105,6 +110,7 @@ class SizingInfeasibleError(InfeasibleError):
             "outer_diameter_needed_mm": _in_mm(self.outer_diameter_needed),
             "length_needed_mm": _in_mm(self.length_needed),
             "ratio_needed": self.ratio_needed,
+            **({} if self.most_speed is None else {"most_continuous_speed_rpm": self.most_speed}),
         }
 
 

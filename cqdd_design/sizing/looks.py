@@ -37,7 +37,7 @@ from cqdd_design.sizing.spaces import FITS, Found, spaces
 from cqdd_design.solids.motor_rules import undrawn_sizes
 from cqdd_design.verdict.drawn import Allowed, Drawn, drawn_gearboxes, good_gearboxes, used
 from cqdd_design.verdict.joint_lines import bell_line
-from cqdd_design.verdict.motor import motor_lines
+from cqdd_design.verdict.motor import held_up_to, motor_lines
 
 HOT = "THERMAL-RISE"
 _LEAST_STEP = 1e-6
@@ -117,15 +117,16 @@ def motor_far_short(hunt: Hunt, machine: Machine, least: float = 0.0) -> tuple[C
     # How a motor is cooled that is not drawn nobody knows, unless it is stated.
     cooled = machine.design.drive.thermal_resistance or not undrawn_sizes(machine.motor)
     try:
-        lines = motor_lines(
-            rigid, actuator_parameters(rigid), "", uncooled="" if cooled else "not drawn"
-        )
+        actuator = actuator_parameters(rigid)
+        lines = motor_lines(rigid, actuator, "", uncooled="" if cooled else "not drawn")
     except DesignError:
         return tuple(far)
     for line in lines:
         torque, near = _FAR_SHORT.get(line.id, (PEAK, 0.0))
         if line.known and line.margin < max(near, least) and torque not in free:
             far.append(line)
+    if not duty and any(line.id == "MOTOR-CONTINUOUS" for line in far):
+        hunt.held_up_to = held_up_to(actuator, rigid.design.requirements)
     return tuple(far)
 
 

@@ -29,6 +29,7 @@ from cqdd_design.sizing.kinds import ranked
 from cqdd_design.sizing.motor_reach import PEAK_LINE, MotorShortError
 from cqdd_design.sizing.stage_tables import stage_tables
 from cqdd_design.sizing.verified import VerifiedDesign, new_hunt, searched
+from cqdd_design.verdict.motor import held_up_to
 
 _MOST = 2.5
 """Of a length that is too small: so far a longer one, and a larger ring without a bore that limits
@@ -59,6 +60,9 @@ _NO_LOADS = {"BACKLASH", "LOST-MOTION", "STIFFNESS", "SHOCK-STOP", "SURFACE-TEMP
 _RISES, _NEAR = 4, 1.02
 """Torques between one that fits and one that does not that are tried, and the factor between the
 two within which none is."""
+_SLOWER = (1.0, 0.9)
+"""Shares of the speed that the nearest design's motor stands with the continuous torque."""
+_RPM = 30.0 / math.pi
 _ALONE = {PEAK: {"MOTOR-PEAK"}, CONTINUOUS: {"MOTOR-CONTINUOUS", "THERMAL-RISE"}}
 """Lines that less of one torque alone helps."""
 
@@ -147,6 +151,9 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
         fits = more.sizing.design.requirements
         most, lasting = fits.peak_torque, fits.continuous_torque
         ways.append(_torques(more))
+    slower = _less_speed(hunt, refusal)
+    if slower is not None:
+        ways.append(f"continuous_speed {slower:g} rpm")
     if isinstance(refusal, MotorShortError):
         if PEAK_LINE in refusal.binding:
             hunt.say("looking for the least ratio that fits")
@@ -164,13 +171,10 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
             ways += [] if need.length is None else [f"{key} {1e3 * need.length:g} mm"]
             if need.tried is not None and need.beyond_space:
                 still[f"{key} {1e3 * need.tried:g} mm"] = need.beyond_space
-    if ways:
-        told = f"What fits, by the whole verdict: {', or '.join(ways)}."
-    elif less.refusal is not None and less.refusal is not refusal:
-        told = f"Less torque does not help: {_why(less.refusal)}."
-    elif isinstance(refusal, MotorShortError) or less.hopeless:
-        told = ""
-    else:
+    told = f"What fits, by the whole verdict: {', or '.join(ways)}." if ways else ""
+    if less.refusal not in (None, refusal) and (slower is not None or not ways):
+        told = f"{told} Less torque does not help: {_why(less.refusal)}.".lstrip()
+    elif not (ways or isinstance(refusal, MotorShortError) or less.hopeless):
         told = "No larger ring and no longer discs were found that do, by the whole verdict."
     if still:
         words = _titles(line for lines in still.values() for line in lines)
@@ -183,6 +187,7 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
         outer_diameter_needed=needed.get("outer_diameter"),
         length_needed=needed.get("length"),
         ratio_needed=ratio,
+        most_speed=slower,
     )
 
 
@@ -279,6 +284,50 @@ def _short_alone(refusal: InfeasibleError | None) -> set[str]:
     if not isinstance(refusal, SizingInfeasibleError) or not refusal.binding:
         return set()
     return {torque for torque, lines in _ALONE.items() if set(refusal.binding) <= lines}
+
+
+def _less_speed(hunt: Hunt, refusal: SizingInfeasibleError) -> float | None:
+    """The input speed (rpm) at which the continuous torque is held for ever, where that is short.
+
+    Tried first is that up to which the motor of the design that came nearest holds it, a little
+    less where that does not do, and then up to which that of the design that was found does.
+    """
+    asked, first = hunt.requirements, refusal.most_speed
+    if first is None or not set(refusal.binding) <= _ALONE[CONTINUOUS]:
+        return None
+    hunt.say("looking for the speed at which that fits")
+    too_much = _RPM * asked.held_speed
+    for share in _SLOWER:
+        known = rounded_down(share * first, _DIGITS)
+        found = _at_speed(hunt, known)
+        if found is not None:
+            return _faster(hunt, found, known, too_much)
+        too_much = known
+    return None
+
+
+def _faster(hunt: Hunt, found: VerifiedDesign, speed: float, too_much: float) -> float:
+    """A speed (rpm) at which a design is found whose motor does not hold it much faster.
+
+    Parameters
+    ----------
+    found : VerifiedDesign
+        At `speed`; the motor of each next one may stand more.
+    """
+    while (actuator := found.verdict.evidence.actuator) is not None:
+        ahead = rounded_down(min(held_up_to(actuator, hunt.requirements), too_much / _NEAR))
+        more = None if ahead <= _NEAR * speed else _at_speed(hunt, ahead)
+        if more is None:
+            break
+        found, speed = more, ahead
+    return speed
+
+
+def _at_speed(hunt: Hunt, speed: float) -> VerifiedDesign | None:
+    """A design that holds the continuous torque at an input speed, rpm."""
+    slower = hunt.requirements.unchecked_copy({"continuous_speed": speed / _RPM})
+    slower.model_fields_set.add("continuous_speed")
+    return _tried(hunt, slower).found
 
 
 def _between(fits: float, too_much: float) -> float:

@@ -27,6 +27,7 @@ from cqdd_design.sizing.search import Search
 from cqdd_design.sizing.shafts import ANY_TORQUE, ROTOR
 from cqdd_design.sizing.spaces import FITS, Found, Space, spaces
 from cqdd_design.verdict import Verdict
+from cqdd_design.verdict.motor import held_up_to
 
 TRIALS = 20
 """Of sizing to the verdict."""
@@ -157,7 +158,11 @@ def unsettled(found: Found) -> SizingInfeasibleError:
 
 def refused(judged: Verdict) -> SizingInfeasibleError:
     """What stands in the way of the design that came nearest."""
-    return short_of(_short(judged))
+    short = _short(judged)
+    if not any(line.id == "MOTOR-CONTINUOUS" for line in short):
+        return short_of(short)
+    actuator, asked = judged.evidence.actuator, judged.evidence.machine.design.requirements
+    return short_of(short, 0.0 if actuator is None else held_up_to(actuator, asked))
 
 
 def least_margin(judged: Verdict) -> float:
@@ -169,8 +174,15 @@ def _short(judged: Verdict) -> list[Check]:
     return [line for line in judged.limits if line.status in {"fail", "unknown"}]
 
 
-def short_of(short: Sequence[Check]) -> SizingInfeasibleError:
-    """What the design that came nearest falls short of, the tightest first."""
+def short_of(short: Sequence[Check], up_to: float = 0.0) -> SizingInfeasibleError:
+    """What the design that came nearest falls short of, the tightest first.
+
+    Parameters
+    ----------
+    up_to : float
+        Input speed up to which its motor holds the continuous torque, rpm; 0 where it does not, or
+        where that is not known.
+    """
     told = "; ".join(
         f"{line.title.lower()}: {line.substituted} ({line.remedy})" for line in short[:4]
     )
@@ -180,4 +192,5 @@ def short_of(short: Sequence[Check]) -> SizingInfeasibleError:
         binding=tuple(line.id for line in short),
         most_torque=most.get("MOTOR-PEAK"),
         most_lasting_torque=most.get("MOTOR-CONTINUOUS"),
+        most_speed=up_to or None,
     )

@@ -52,13 +52,13 @@ def cooler_gearbox(hunt: Hunt, far: tuple[Check, ...]) -> Found:
         When the motor is as far from it with that one, or it is a peak torque.
     """
     if hunt.goal == _COOL or not {line.id for line in far} <= _LASTING:
-        raise short_of(far)
+        raise short_of(far, hunt.held_up_to)
     hunt.say("searching with efficiency as the objective, for what the motor has to hold")
     hunt.goal, hunt.pins = _COOL, (False, True) if hunt.may_roll else hunt.pins
     hunt.tried.add(_COOL)
     found = promising(hunt)
     if found is None or motor_far_short(hunt, found.sized.machine, _NEARLY_HELD):
-        raise short_of(far)
+        raise short_of(far, hunt.held_up_to)
     return found
 
 

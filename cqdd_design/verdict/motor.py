@@ -42,9 +42,9 @@ _RAISED = {
 """What to raise where it binds."""
 _LOWER_CONTINUOUS = "lower requirements.continuous_torque to about"
 _MOST_RAISED = 10.0
+"""Above so many times what there is it is no cure."""
 _ZOOMS, _SPEEDS = 3, 33
 """Of the search for the speed up to which a torque is held, and speeds that are tried in each."""
-"""Above so many times what there is it is no cure."""
 _FIGURES = (
     ("peak_torque", "peak torque"),
     ("bore_diameter", "stator bore"),
@@ -162,20 +162,31 @@ def _continuous(
     )
 
 
-def _slower(actuator: ActuatorParameters, asked: Requirements) -> str:
-    """The speed up to which a continuous torque is held, in words; nothing where there is none."""
+def held_up_to(actuator: ActuatorParameters, asked: Requirements) -> float:
+    """Input speed up to which a continuous torque is held for ever, rpm; 0 where it never is.
+
+    Rounded down, and no more than what is asked for.
+    """
     fast, slow = asked.held_speed, 0.0
     for _ in range(_ZOOMS):
         speeds = np.linspace(slow, fast, _SPEEDS)
         held = held_torque(actuator, speeds / abs(actuator.gear.ratio)) >= asked.continuous_torque
         if not held.any():
-            return ""
+            return 0.0
         last = int(np.flatnonzero(held)[-1])
         slow, fast = speeds[last], speeds[min(last + 1, _SPEEDS - 1)]
     told = rounded_down(slow * _RPM) if slow > 0.0 else 0.0
     slower = asked.unchecked_copy({"continuous_speed": told / _RPM})
     # Driver and supply do not come to more by that.
     if told <= 0.0 or demands(actuator, slower)[1].found.most < asked.continuous_torque:
+        return 0.0
+    return told
+
+
+def _slower(actuator: ActuatorParameters, asked: Requirements) -> str:
+    """The speed up to which a continuous torque is held, in words; nothing where there is none."""
+    told = held_up_to(actuator, asked)
+    if not told:
         return ""
     if asked.continuous_speed is None:
         return f"state continuous_speed, as it is held up to {told:g} rpm, "

@@ -290,6 +290,63 @@ def test_torques_that_are_told_are_nearly_the_most(monkeypatch, bears, holds):
     assert {lasting for _, lasting in tried} == {free.requirements.continuous_torque}
 
 
+def found_at(speed, holds):
+    verdict = SimpleNamespace(evidence=SimpleNamespace(actuator=holds))
+    return SimpleNamespace(verdict=verdict, speed=speed)
+
+
+@pytest.mark.parametrize(
+    ("first", "most", "told", "rounds"),
+    [
+        # The nearest design's motor stands 96 rpm; those that are found ever more, up to 118.
+        (96.0, 118.0, 117.0, 4),
+        # No design at that speed is found, but a little below.
+        (96.0, 90.0, 89.9, 3),
+        (96.0, 80.0, None, 2),
+        # Nothing more than was asked for.
+        (290.0, 400.0, 294.0, 2),
+        (None, 400.0, None, 0),
+    ],
+)
+def test_the_speed_is_told_at_which_the_torque_is_held(monkeypatch, first, most, told, rounds):
+    """A motor that its own drag overheats at 800 rpm holds what is asked at 276."""
+    tried = []
+
+    def way(hunt, own):
+        speed = own.continuous_speed * 30.0 / 3.141592653589793
+        assert own.peak_torque == 45.0
+        assert "continuous_speed" in own.model_fields_set
+        tried.append(speed)
+        fits = speed <= most + 1e-9
+        return nearest._Way(hunt, found_at(speed, min(1.1 * speed, most)) if fits else None, None)
+
+    monkeypatch.setattr(nearest, "_tried", way)
+    monkeypatch.setattr(nearest, "held_up_to", lambda holds, _: holds)
+    hunt = new_hunt(requirements_from_mapping(ASKED), lambda _: None, None, None, "mass")
+    short = SizingInfeasibleError(
+        "no.", binding=("MOTOR-CONTINUOUS",), most_torque=None, most_speed=first
+    )
+    answer = nearest._less_speed(hunt, short)
+    assert answer == (None if told is None else pytest.approx(told, rel=0.01))
+    assert len(tried) == rounds
+    assert all(speed < 300.0 for speed in tried)
+    # Where anything else is short it is not looked for.
+    short.binding = ("MOTOR-CONTINUOUS", "YIELD")
+    assert nearest._less_speed(hunt, short) is None
+    assert len(tried) == rounds
+
+
+def test_a_speed_that_fits_is_told_beside_why_torque_does_not_help(monkeypatch):
+    hot = TooHotError("the motor holds nothing.")
+    monkeypatch.setattr(nearest, "_less_speed", lambda *_: 276.0)
+    error, _ = said(monkeypatch, lambda _: False, lambda *_: hot, first=("MOTOR-CONTINUOUS",))
+    assert error.message.endswith(
+        "What fits, by the whole verdict: continuous_speed 276 rpm. Less torque does not help: "
+        "the motor holds nothing."
+    )
+    assert error.to_dict()["most_continuous_speed_rpm"] == 276.0
+
+
 @pytest.mark.parametrize(
     ("line", "low", "most"),
     [("MOTOR-CONTINUOUS", (15.0, 2.0), (44.0, 2.05)), ("MOTOR-PEAK", (15.0, 2.0), (15.2, 5.5))],
