@@ -62,6 +62,8 @@ _RISES, _NEAR = 4, 1.02
 two within which none is."""
 _SLOWER = (1.0, 0.9)
 """Shares of the speed that the nearest design's motor stands with the continuous torque."""
+_UP = 1.05
+"""Factor from a speed that fits to the next."""
 _RPM = 30.0 / math.pi
 _ALONE = {PEAK: {"MOTOR-PEAK"}, CONTINUOUS: {"MOTOR-CONTINUOUS", "THERMAL-RISE"}}
 """Lines that less of one torque alone helps."""
@@ -307,19 +309,24 @@ def _less_speed(hunt: Hunt, refusal: SizingInfeasibleError) -> float | None:
 
 
 def _faster(hunt: Hunt, found: VerifiedDesign, speed: float, too_much: float) -> float:
-    """A speed (rpm) at which a design is found whose motor does not hold it much faster.
+    """A speed (rpm) at which a design is found, and at little more none, in a few searches.
 
     Parameters
     ----------
     found : VerifiedDesign
-        At `speed`; the motor of each next one may stand more.
+        At `speed`; what its motor stands, or a little more, is tried next.
     """
-    while (actuator := found.verdict.evidence.actuator) is not None:
-        ahead = rounded_down(min(held_up_to(actuator, hunt.requirements), too_much / _NEAR))
-        more = None if ahead <= _NEAR * speed else _at_speed(hunt, ahead)
-        if more is None:
+    for _ in range(_RISES):
+        if too_much <= _NEAR * speed:
             break
-        found, speed = more, ahead
+        actuator = found.verdict.evidence.actuator
+        holds = 0.0 if actuator is None else held_up_to(actuator, hunt.requirements)
+        ahead = rounded_down(min(max(holds, _UP * speed), math.sqrt(speed * too_much)))
+        more = _at_speed(hunt, ahead) if ahead > speed else None
+        if more is None:
+            too_much = ahead
+        else:
+            found, speed = more, ahead
     return speed
 
 
