@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from cqdd_design.design import Requirements
+from cqdd_design.errors import InfeasibleError
 from cqdd_design.gearbox.checks.guide import CHECK_GUIDE
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.results import Check
@@ -45,11 +46,17 @@ def nothing(hunt: Hunt) -> SizingInfeasibleError:
     asked, space = hunt.requirements, next(spaces(hunt.requirements, hunt.fit))
     if hunt.short_of:
         return _no_shaft(hunt)
-    search = Search.of(hunt.frame(space, {}), hunt.tables)
+    learnt = _learnt(hunt)
+    try:
+        search = Search.of(hunt.frame(space, {}), hunt.tables)
+    except InfeasibleError:
+        if not learnt:
+            raise
+        return _nothing_so(hunt, learnt, ("SHAFT-STRENGTH",))
     if search.most_reserve() is None:
         closed = no_design(search, nearest=False)
         if closed.most_torque is None:
-            return closed
+            return _nothing_so(hunt, learnt, closed.binding) if learnt else closed
     share = min(both_bearable(hunt), 1.0)
     binding = _binding(hunt, space, share)
     words = list(dict.fromkeys(WORDS.get(one, CHECK_GUIDE[one].title) for one in binding))
@@ -59,13 +66,42 @@ def nothing(hunt: Hunt) -> SizingInfeasibleError:
     )
     if share < 1.0:
         parts = "with what part errors take" if hunt.has_extra else "of perfect parts"
-        text += f"; by the contact equilibrium {parts} {_carried(asked, share)} carried"
+        so = f", with {learnt}," if learnt else ""
+        text += f"; by the contact equilibrium {parts}{so} {_carried(asked, share)} carried"
     closer = ", or state closer [tolerances] in a design" if hunt.has_extra else ""
     bore = "" if asked.bore is None else ", ask for a smaller bore"
     return SizingInfeasibleError(
         f"{text}. Ask for less torque, give more space{bore}{closer}.",
         binding=(*(("YIELD",) if hunt.has_extra else ()), *binding),
         most_torque=rounded_down(share * asked.peak_torque, 2) if share < 1.0 else None,
+    )
+
+
+def _learnt(hunt: Hunt) -> str:
+    """What the search has found to be needed for these torques, in words; or nothing.
+
+    With less torque less of it is: what does not fit so may fit then.
+    """
+    needed = []
+    if hunt.fit != FITS[0]:
+        needed.append("clearance")
+    if hunt.least_bore > 0.0:
+        needed.append("cam bearing")
+    if hunt.least_ring > 0.0:
+        needed.append("ring")
+    if hunt.most_pin_circle < math.inf:
+        needed.append("pin circle")
+    return f"the {listed(needed)} that they were found to ask for" if needed else ""
+
+
+def _nothing_so(hunt: Hunt, learnt: str, binding: tuple[str, ...]) -> SizingInfeasibleError:
+    """No gearbox of any torque is left with what was learnt for those that are asked for."""
+    asked, guide = hunt.requirements, CHECK_GUIDE[binding[0]]
+    return SizingInfeasibleError(
+        f"{_asked(asked)} do not fit in {_space(asked)}: with {learnt}, '{guide.title}' "
+        f"({guide.formula}) leaves no gearbox. Ask for less torque or give more space.",
+        binding=binding,
+        most_torque=None,
     )
 
 

@@ -10,6 +10,7 @@ from cqdd_design.design import requirements_from_mapping
 from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.kinds import lightest
 from cqdd_design.sizing.refusals import nothing
+from cqdd_design.sizing.spaces import FITS
 from cqdd_design.sizing.stage_tables import stage_tables
 
 SMALL = {"ratio": 10, "peak_torque": "30 N*m", "outer_diameter": "45 mm", "length": "10 mm"}
@@ -44,6 +45,34 @@ def test_what_chance_finds_is_not_refused(space):
 def refused(**asked):
     requirements = requirements_from_mapping({**SMALL, **asked})
     return nothing(Hunt(requirements, None, None, lambda _: None, stage_tables(10), "mass"))
+
+
+@pytest.mark.parametrize(
+    ("learnt", "words", "binding"),
+    [
+        ({"least_bore": 17e-3}, "with the cam bearing that they", "GEO-LIGAMENT-BORE"),
+        (
+            {"least_bore": 20e-3, "fit": FITS[-1]},
+            "with the clearance and cam bearing that",
+            "SHAFT",
+        ),
+        ({"least_bore": 12e-3}, "with the cam bearing that they", "BEARING"),
+    ],
+)
+def test_what_was_learnt_for_some_torques_is_not_said_of_any(learnt, words, binding):
+    """At ratio 16 in 50 mm "no gearbox at any torque" stood beside 10.8 N m that fit."""
+    requirements = requirements_from_mapping(SMALL)
+    hunt = Hunt(requirements, None, None, lambda _: None, stage_tables(10), "mass", **learnt)
+    refusal = nothing(hunt)
+    assert "at any torque" not in refusal.message
+    assert words in refusal.message
+    assert refusal.message.startswith("30 N*m at ratio 10, 11.4 N*m of it for ever, do not fit in")
+    assert refusal.binding[0].startswith(binding)
+    # Of any gearbox it is said where there is none whatever is asked.
+    assert (
+        "10 fits in a 29 mm ring and 10 mm of length at any torque"
+        in refused(outer_diameter="29 mm").message
+    )
 
 
 def test_a_refusal_speaks_of_what_was_asked():
