@@ -203,6 +203,24 @@ def test_a_bandwidth_beyond_coherence_is_none(actuator: ActuatorParameters) -> N
     assert "coherence" in found.missing
 
 
+def test_a_motor_that_friction_holds_has_no_torque_bandwidth(actuator: ActuatorParameters) -> None:
+    """At ratio 26 the drag of a large motor is more than the chirp: nothing over nothing, a crash."""
+    stiff = changed(actuator, friction={"motor_coulomb": 0.6})
+    result = run_bench(stiff, only=["torque_bandwidth"])
+    (found,) = result.metrics
+    assert math.isnan(found.value)
+    assert found.missing == (
+        "friction holds motor and gearbox: of a chirp of 5 N*m no torque reaches the output"
+    )
+    assert bench_figures(stiff, result, 10) == ()
+    assert all(math.isfinite(value) for value in found.details.values())
+    # A little less of it, and there is something to read, or a reason of its own.
+    (loose,) = run_bench(
+        changed(actuator, friction={"motor_coulomb": 0.3}), only=["torque_bandwidth"]
+    ).metrics
+    assert loose.details["low_frequency_gain"] > 0.0
+
+
 @pytest.mark.parametrize(
     "name",
     [

@@ -85,8 +85,9 @@ def torque_bandwidth(
 ) -> Metric:
     """Held output, torque chirp, H1 with coherence, -3 dB below the low-frequency gain.
 
-    There is no value where the coherence of chirp and torque falls below `COHERENT` before the gain
-    has fallen by 3 dB: what a transfer function says there is not the actuator's.
+    There is no value where friction holds the motor, nor where the coherence of chirp and torque
+    falls below `COHERENT` before the gain has fallen by 3 dB: what a transfer function says there
+    is not the actuator's.
     """
     first, last, chirping, settling = 0.5, 300.0, 12.0, 0.5
     duration = chirping + settling
@@ -110,11 +111,17 @@ def torque_bandwidth(
     # Each of the lowest bands holds a line or two of the chirp, so none of them ends a bandwidth.
     above = frequency > _LOW
     low = float(gain[~above].mean())
-    edge = crossing(frequency[above], gain[above] / low, DOWN)
+    held_fast = low <= 0.0
+    edge = math.nan if held_fast else crossing(frequency[above], gain[above] / low, DOWN)
     sure = crossing(frequency, coherence, COHERENT)
     given = "fitted" if parameters.rig.stiffness else "a torque sensor"
     missing = ""
-    if edge > sure:
+    if held_fast:
+        missing = (
+            f"friction holds motor and gearbox: of a chirp of {amplitude:g} N*m no torque reaches "
+            "the output"
+        )
+    elif edge > sure:
         there = float(np.interp(sure, frequency, gain)) / low
         missing = (
             f"the coherence of the torque with the chirp falls below {COHERENT:g} at {sure:.3g} "
@@ -132,14 +139,18 @@ def torque_bandwidth(
         f"{amplitude:g} N*m from {first:g} to {last:g} Hz in {chirping:g} s, rising and falling in "
         "both senses, H1 over these and twelfths of an octave, -3 dB below the mean under "
         f"{_LOW:g} Hz, read only where the coherence is {COHERENT:g} or more up to there.",
-        details={
+        details={"sensor_stiffness_Nm_per_rad": held.sensor_stiffness}
+        if held_fast
+        else {
             "low_frequency_gain": low,
             "gain_falls_by_3_dB_Hz": edge,
             "phase_90_deg_Hz": crossing(frequency, phase, -0.5 * math.pi),
             f"coherence_falls_below_{COHERENT:g}_Hz": sure,
             "sensor_stiffness_Nm_per_rad": held.sensor_stiffness,
         },
-        trace={
+        trace={}
+        if held_fast
+        else {
             "frequency [Hz]": frequency,
             "gain": gain,
             "phase [rad]": phase,
