@@ -204,7 +204,7 @@ def test_a_bandwidth_beyond_coherence_is_none(actuator: ActuatorParameters) -> N
 
 
 def test_a_motor_that_friction_holds_has_no_torque_bandwidth(actuator: ActuatorParameters) -> None:
-    """At ratio 26 the drag of a large motor is more than the chirp: nothing over nothing, a crash."""
+    """At ratio 26 the drag of a large motor is more than the chirp: nothing over nothing."""
     stiff = changed(actuator, friction={"motor_coulomb": 0.6})
     result = run_bench(stiff, only=["torque_bandwidth"])
     (found,) = result.metrics
