@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from cqdd_design.errors import UsageError
-from cqdd_design.library.calls import road, si_value, text, whole
-from cqdd_design.library.inputs import DesignLike, PathLike, design_of, path_of
+from cqdd_design.library.calls import of_arguments, road, si_value, text, whole
+from cqdd_design.library.inputs import DesignLike, PathLike, design_of, path_of, read_design
 from cqdd_design.library.results import Result, Row
 
 if TYPE_CHECKING:
@@ -75,6 +75,8 @@ def tolerance(
     torque: Quantity | None = None,
     temperature: Quantity | None = None,
     scheduler: str | None = None,
+    motor: str | None = None,
+    motor_file: PathLike | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> Toleranced:
     """Draw gearboxes from the tolerances of a design, and solve each over a whole output turn.
@@ -95,6 +97,10 @@ def tolerance(
         Of all parts of the gearbox; default 20 deg C, as drawn.
     scheduler : str, optional
         A Dask scheduler to work on, as ``tcp://HOST:8786``; default this machine.
+    motor : str, optional
+        A motor of the catalogue, as in `load`.
+    motor_file : path, optional
+        A motor in TOML, as in `load`.
     progress : callable, optional
         Told how many gearboxes are solved, and of how many.
 
@@ -124,7 +130,10 @@ def tolerance(
     from cqdd_design.roads.tolerance import tolerance as draw
     from cqdd_design.units import TEMPERATURE, TORQUE
 
-    loaded = design_of(design)
+    file = None if motor_file is None else path_of("motor_file", motor_file)
+    if motor is not None:
+        text("motor", motor, "CubeMars RO100 KV55")
+    loaded, told = read_design(design, motor, file)
     found = draw(
         loaded,
         samples=whole("samples", samples, 1, _MOST_SAMPLES),
@@ -135,7 +144,7 @@ def tolerance(
         scheduler=None if scheduler is None else text("scheduler", scheduler, "tcp://HOST:8786"),
         progress=progress,
     )
-    return Toleranced(loaded, found.warnings, found)
+    return Toleranced(loaded, (*map(of_arguments, told), *found.warnings), found)
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -508,3 +508,11 @@ def test_a_figure_that_was_not_drawn_says_so() -> None:
     found = cq.analyse("cqdd-10")
     (line,) = (one for one in repr(found.verdict).splitlines() if "backlash" in one)
     assert "not known (no toleranced gearboxes were drawn here; `check` draws them)" in line
+
+
+def test_gearboxes_are_drawn_with_another_motor_too():
+    drawn = cq.tolerance(PAPER, samples=2, angles=110, motor="CubeMars RO100 KV55")
+    assert drawn.design.motor.name == "CubeMars RO100 KV55"
+    assert cq.load(PAPER).motor.name != drawn.design.motor.name
+    with pytest.raises(UsageError, match=r"motor must be"):
+        cq.tolerance(PAPER, samples=2, motor=5)
