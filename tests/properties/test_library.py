@@ -514,5 +514,5 @@ def test_gearboxes_are_drawn_with_another_motor_too():
     drawn = cq.tolerance(PAPER, samples=2, angles=110, motor="CubeMars RO100 KV55")
     assert drawn.design.motor.name == "CubeMars RO100 KV55"
     assert cq.load(PAPER).motor.name != drawn.design.motor.name
-    with pytest.raises(UsageError, match=r"motor must be"):
+    with pytest.raises(UsageError, match=r"motor 5 is not a text"):
         cq.tolerance(PAPER, samples=2, motor=5)
