@@ -27,9 +27,9 @@ from cqdd_design.sizing.hunt import Hunt, Progress
 from cqdd_design.sizing.infeasible import WORDS, SizingInfeasibleError, listed
 from cqdd_design.sizing.kinds import ranked
 from cqdd_design.sizing.motor_reach import PEAK_LINE, MotorShortError
+from cqdd_design.sizing.slower import TOO_HOT, less_speed
 from cqdd_design.sizing.stage_tables import stage_tables
 from cqdd_design.sizing.verified import VerifiedDesign, new_hunt, searched
-from cqdd_design.verdict.motor import held_up_to
 
 _MOST = 2.5
 """Of a length that is too small: so far a longer one, and a larger ring without a bore that limits
@@ -60,12 +60,7 @@ _NO_LOADS = {"BACKLASH", "LOST-MOTION", "STIFFNESS", "SHOCK-STOP", "SURFACE-TEMP
 _RISES, _NEAR = 4, 1.02
 """Torques between one that fits and one that does not that are tried, and the factor between the
 two within which none is."""
-_SLOWER = (1.0, 0.9)
-"""Shares of the speed that the nearest design's motor stands with the continuous torque."""
-_UP = 1.05
-"""Factor from a speed that fits to the next."""
-_RPM = 30.0 / math.pi
-_ALONE = {PEAK: {"MOTOR-PEAK"}, CONTINUOUS: {"MOTOR-CONTINUOUS", "THERMAL-RISE"}}
+_ALONE = {PEAK: {"MOTOR-PEAK"}, CONTINUOUS: TOO_HOT}
 """Lines that less of one torque alone helps."""
 
 
@@ -153,7 +148,7 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
         fits = more.sizing.design.requirements
         most, lasting = fits.peak_torque, fits.continuous_torque
         ways.append(_torques(more))
-    slower = _less_speed(hunt, refusal)
+    slower = less_speed(hunt, refusal, lambda own: _tried(hunt, own).found)
     if slower is not None:
         ways.append(f"continuous_speed {slower:g} rpm")
     if isinstance(refusal, MotorShortError):
@@ -286,55 +281,6 @@ def _short_alone(refusal: InfeasibleError | None) -> set[str]:
     if not isinstance(refusal, SizingInfeasibleError) or not refusal.binding:
         return set()
     return {torque for torque, lines in _ALONE.items() if set(refusal.binding) <= lines}
-
-
-def _less_speed(hunt: Hunt, refusal: SizingInfeasibleError) -> float | None:
-    """The input speed (rpm) at which the continuous torque is held for ever, where that is short.
-
-    Tried first is that up to which the motor of the design that came nearest holds it, a little
-    less where that does not do, and then up to which that of the design that was found does.
-    """
-    asked, first = hunt.requirements, refusal.most_speed
-    if first is None or not set(refusal.binding) <= _ALONE[CONTINUOUS]:
-        return None
-    hunt.say("looking for the speed at which that fits")
-    too_much = _RPM * asked.held_speed
-    for share in _SLOWER:
-        known = rounded_down(share * first, _DIGITS)
-        found = _at_speed(hunt, known)
-        if found is not None:
-            return _faster(hunt, found, known, too_much)
-        too_much = known
-    return None
-
-
-def _faster(hunt: Hunt, found: VerifiedDesign, speed: float, too_much: float) -> float:
-    """A speed (rpm) at which a design is found, and at little more none, in a few searches.
-
-    Parameters
-    ----------
-    found : VerifiedDesign
-        At `speed`; what its motor stands, or a little more, is tried next.
-    """
-    for _ in range(_RISES):
-        if too_much <= _NEAR * speed:
-            break
-        actuator = found.verdict.evidence.actuator
-        holds = 0.0 if actuator is None else held_up_to(actuator, hunt.requirements)
-        ahead = rounded_down(min(max(holds, _UP * speed), math.sqrt(speed * too_much)))
-        more = _at_speed(hunt, ahead) if ahead > speed else None
-        if more is None:
-            too_much = ahead
-        else:
-            found, speed = more, ahead
-    return speed
-
-
-def _at_speed(hunt: Hunt, speed: float) -> VerifiedDesign | None:
-    """A design that holds the continuous torque at an input speed, rpm."""
-    slower = hunt.requirements.unchecked_copy({"continuous_speed": speed / _RPM})
-    slower.model_fields_set.add("continuous_speed")
-    return _tried(hunt, slower).found
 
 
 def _between(fits: float, too_much: float) -> float:

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import pytest
 
 from cqdd_design.design import requirements_from_mapping
-from cqdd_design.sizing import nearest
+from cqdd_design.sizing import nearest, slower
 from cqdd_design.sizing.able import TooHotError
 from cqdd_design.sizing.infeasible import SizingInfeasibleError
 from cqdd_design.sizing.verified import new_hunt, size_to_verdict
@@ -314,39 +314,38 @@ def test_the_speed_is_told_at_which_the_torque_is_held(monkeypatch, first, most,
     """A motor that its own drag overheats at 800 rpm holds what is asked at 276."""
     tried = []
 
-    def way(hunt, own):
+    def search(own):
         speed = own.continuous_speed * 30.0 / 3.141592653589793
         assert own.peak_torque == 45.0
         assert "continuous_speed" in own.model_fields_set
         tried.append(speed)
         fits = speed <= most + 1e-9
         holds = min(1.1 * speed, most) if most > 100.0 else speed
-        return nearest._Way(hunt, found_at(speed, holds) if fits else None, None)
+        return found_at(speed, holds) if fits else None
 
-    monkeypatch.setattr(nearest, "_tried", way)
-    monkeypatch.setattr(nearest, "held_up_to", lambda holds, _: holds)
+    monkeypatch.setattr(slower, "held_up_to", lambda holds, _: holds)
     hunt = new_hunt(requirements_from_mapping(ASKED), lambda _: None, None, None, "mass")
     short = SizingInfeasibleError(
         "no.", binding=("MOTOR-CONTINUOUS",), most_torque=None, most_speed=first
     )
-    answer = nearest._less_speed(hunt, short)
+    answer = slower.less_speed(hunt, short, search)
     if told is None:
         assert answer is None
     else:
         # 2 % nearer to what was asked is too much, or no less than it.
         assert told / 1.02 <= answer <= told
     rounds = len(tried)
-    assert rounds <= 2 + nearest._RISES
+    assert rounds <= 2 + slower.TRIES
     assert all(speed < 300.0 for speed in tried)
     # Where anything else is short it is not looked for.
     short.binding = ("MOTOR-CONTINUOUS", "YIELD")
-    assert nearest._less_speed(hunt, short) is None
+    assert slower.less_speed(hunt, short, search) is None
     assert len(tried) == rounds
 
 
 def test_a_speed_that_fits_is_told_beside_why_torque_does_not_help(monkeypatch):
     hot = TooHotError("the motor holds nothing.")
-    monkeypatch.setattr(nearest, "_less_speed", lambda *_: 276.0)
+    monkeypatch.setattr(nearest, "less_speed", lambda *_: 276.0)
     error, _ = said(monkeypatch, lambda _: False, lambda *_: hot, first=("MOTOR-CONTINUOUS",))
     assert error.message.endswith(
         "What fits, by the whole verdict: continuous_speed 276 rpm. Less torque does not help: "
