@@ -70,6 +70,7 @@ def analyse(
     """Loads, contact equilibrium, precision, losses, life, stress of discs and ring, and shock."""
     from cqdd_design.cli.analysis_text import analysis_lines
     from cqdd_design.roads.analyse import analyse as analysed
+    from cqdd_design.roads.analyse import asks_of_gearboxes
     from cqdd_design.units import SPEED, TEMPERATURE, TORQUE
     from cqdd_design.verdict.judge import sentence
 
@@ -77,7 +78,7 @@ def analyse(
     parts_at = parse_option("--temperature", temperature, TEMPERATURE)
     asked_speed = parse_positive("--speed", speed, SPEED)
     loaded = under_duty(read_design(out, design, motor, motor_file), duty, duty_columns)
-    out.compile_ahead(loaded, simulation=True)
+    out.compile_ahead(loaded, simulation=True, ensembles=asks_of_gearboxes(loaded))
     found = analysed(
         loaded,
         torque=asked_torque,
@@ -88,6 +89,8 @@ def analyse(
         temperature=parts_at,
     )
     out.say(*analysis_lines(found), "")
-    out.say(sentence(loaded.name, found.checks), "(`check` draws toleranced gearboxes too)")
+    out.say(sentence(loaded.name, found.checks))
+    if not found.toleranced:
+        out.say("(`check` draws toleranced gearboxes too)")
     out.warn(*found.warnings)
     out.document(found.to_dict(), design=found.machine.given, checks=found.checks)

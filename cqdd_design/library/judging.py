@@ -139,16 +139,21 @@ class Analysed(Result):
 
     @property
     def verdict(self) -> Verdict:
-        """On the design as drawn: without toleranced gearboxes, so it is never a yes."""
+        """On the design as drawn.
+
+        Without toleranced gearboxes, and so never a yes, unless the requirements ask for their
+        backlash or stiffness.
+        """
         return self.found.verdict
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """Lines of the verdict but that of toleranced gearboxes."""
+        """Lines of the verdict; without `YIELD` where no toleranced gearboxes were drawn."""
         return self.found.checks
 
     def _told(self) -> str:
-        return f"{self._answer(self.checks)} (`check` draws toleranced ones too)"
+        more = "" if self.found.toleranced else " (`check` draws toleranced ones too)"
+        return f"{self._answer(self.checks)}{more}"
 
     def _results(self) -> Mapping[str, Any]:
         return self.found.to_dict()

@@ -13,6 +13,7 @@ from cqdd_design.design.requirements import LEAST_TORQUE, MOST_TORQUE
 from cqdd_design.errors import ContactError, GeometryError, UsageError
 from cqdd_design.gearbox import GearboxAnalysis
 from cqdd_design.gearbox.bodies.strength import BodyStrength
+from cqdd_design.gearbox.checks.allowables import YIELD_SAMPLES
 from cqdd_design.gearbox.contact.laws import LineModel
 from cqdd_design.gearbox.contact.rubbing import FrictionChoice
 from cqdd_design.gearbox.heat.expansion import PartTemperatures
@@ -53,7 +54,7 @@ class Analysis:
     Attributes
     ----------
     verdict : Verdict
-        On the design as drawn, without toleranced gearboxes.
+        On the design as drawn; with toleranced gearboxes where lines of them are asked for.
     contact : ContactAnalysis or None
         None for a gearbox that cannot carry the torque.
     missing : str
@@ -104,9 +105,15 @@ class Analysis:
         return told | over_time | {"checks": "requirements"}
 
     @property
+    def toleranced(self) -> bool:
+        """Whether toleranced gearboxes were drawn for the verdict, and it is the whole one."""
+        return asks_of_gearboxes(self.verdict.evidence.machine.design)
+
+    @property
     def checks(self) -> tuple[Check, ...]:
-        """Lines of the verdict but that of toleranced gearboxes, which `check` draws."""
-        return tuple(line for line in self.verdict.lines if line.id != "YIELD")
+        """Lines of the verdict, but `YIELD` where it is left to `check` to draw gearboxes."""
+        lines = self.verdict.lines
+        return lines if self.toleranced else tuple(one for one in lines if one.id != "YIELD")
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -206,7 +213,7 @@ def analyse(
     if temperature is not None:
         machine = loaded.at(PartTemperatures.even(temperature))
     # What is judged is a matter of the design, whatever is asked for here.
-    verdict = judge(drawn, samples=0)
+    verdict = judge(drawn, samples=YIELD_SAMPLES if asks_of_gearboxes(design) else 0)
     warm, cold = verdict.evidence.temperatures, verdict.evidence.heat_missing
     if loaded is not drawn:
         warm, _, told = judged_temperatures(loaded)
@@ -233,3 +240,9 @@ def analyse(
     except (ContactError, GeometryError) as error:
         return replace(found, bodies_missing=error.message)
     return replace(found, bodies=bodies)
+
+
+def asks_of_gearboxes(design: Design) -> bool:
+    """Whether a line of its verdict is of toleranced gearboxes, beside their share that passes."""
+    asked = design.requirements
+    return asked.backlash is not None or asked.stiffness is not None

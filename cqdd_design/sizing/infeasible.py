@@ -7,7 +7,9 @@ search and confirmed by the same analysis; so is the ring.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
+from types import MappingProxyType
 
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.errors import InfeasibleError
@@ -78,6 +80,13 @@ class SizingInfeasibleError(InfeasibleError):
     most_speed : float or None
         Input speed up to which the motor holds the continuous torque for ever in the same space,
         rpm; looked for only where that alone is short.
+    figures : mapping of str to str
+        Requirements of mass, stiffness and the like that fit in place of those that are short, as
+        unit strings; looked for only where they alone are.
+    shares : mapping of str to float
+        Of such requirements, what the design that came nearest has over what is asked.
+    estimate : str
+        The part of the message on what is carried, no bound: a search may find more.
     """
 
     def __init__(
@@ -91,6 +100,9 @@ class SizingInfeasibleError(InfeasibleError):
         length_needed: float | None = None,
         ratio_needed: int | None = None,
         most_speed: float | None = None,
+        figures: Mapping[str, str] = MappingProxyType({}),
+        shares: Mapping[str, float] = MappingProxyType({}),
+        estimate: str = "",
     ) -> None:
         super().__init__(message)
         self.binding = binding
@@ -100,6 +112,9 @@ class SizingInfeasibleError(InfeasibleError):
         self.length_needed = length_needed
         self.ratio_needed = ratio_needed
         self.most_speed = most_speed
+        self.figures = figures
+        self.shares = shares
+        self.estimate = estimate
 
     def to_dict(self) -> dict[str, object]:
         """The JSON form."""
@@ -111,6 +126,7 @@ class SizingInfeasibleError(InfeasibleError):
             "length_needed_mm": _in_mm(self.length_needed),
             "ratio_needed": self.ratio_needed,
             **({} if self.most_speed is None else {"most_continuous_speed_rpm": self.most_speed}),
+            **({"requirements_that_fit": dict(self.figures)} if self.figures else {}),
         }
 
 

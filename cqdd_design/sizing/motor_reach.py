@@ -70,15 +70,19 @@ class MotorShortError(SizingInfeasibleError):
     ----------
     torque : float
         Of the motor's shaft at most, N m.
+    most_ratio : int or None
+        At which its rotor alone is light enough; None where it is.
     """
 
-    def __init__(self, message: str, binding: tuple[str, ...], torque: float) -> None:
+    def __init__(
+        self, message: str, binding: tuple[str, ...], torque: float, most_ratio: int | None
+    ) -> None:
         super().__init__(message, binding=binding, most_torque=None)
-        self.torque = torque
+        self.torque, self.most_ratio = torque, most_ratio
 
 
 def refuse_weak_motor(requirements: Requirements, motor: Motor, ambient: float | None) -> None:
-    """Raise where a motor cannot do what is stated even through a gearbox without losses.
+    """Raise where a motor cannot do what is stated even through a gearbox without losses or mass.
 
     Raises
     ------
@@ -102,11 +106,45 @@ def refuse_weak_motor(requirements: Requirements, motor: Motor, ambient: float |
             f"{most.voltage:g} V turn it at {most.speed * _RPM:.0f} of {fast * _RPM:.0f} rpm at "
             "most, warm and without load"
         )
+    heavy, light_at = _heavier(requirements, motor)
+    told += heavy.values()
+    binding += heavy
     if told:
-        ways = "Ask for less torque, raise the ratio" if PEAK_LINE in binding else "Ask for less"
         raise MotorShortError(
-            f"no gearbox makes motor '{motor.name}' do what is asked: {'; '.join(told)}. {ways}, "
-            "or take another motor (--motor any tries all of the catalogue).",
+            f"no gearbox makes motor '{motor.name}' do what is asked: {'; '.join(told)}. "
+            f"{_ways(binding)}, or take another motor (--motor any tries all of the catalogue).",
             tuple(binding),
             most.torque,
+            light_at,
         )
+
+
+def _heavier(requirements: Requirements, motor: Motor) -> tuple[dict[str, str], int | None]:
+    """By line, what of a motor alone is more than the whole actuator may have.
+
+    And the greatest ratio at which its rotor is not.
+    """
+    told, light_at, ratio = {}, None, requirements.ratio
+    inertia, rotor = requirements.reflected_inertia, motor.rotor_inertia
+    if inertia is not None and rotor and ratio**2 * rotor > inertia:
+        light_at = math.isqrt(math.floor(inertia / rotor))
+        told["REFLECTED-INERTIA"] = (
+            f"its rotor of {rotor:.4g} kg*m^2 alone is felt as {ratio**2 * rotor:.4g} of "
+            f"{inertia:g} kg*m^2 at ratio {ratio}"
+        )
+    if requirements.mass is not None and motor.mass and motor.mass > requirements.mass:
+        told["MASS"] = f"it weighs {motor.mass:.4g} of {requirements.mass:g} kg itself"
+    return told, light_at
+
+
+def _ways(binding: list[str]) -> str:
+    ways = []
+    if PEAK_LINE in binding:
+        ways += ["ask for less torque", "raise the ratio"]
+    elif "MOTOR-SPEED" in binding:
+        ways += ["ask for less"]
+    if "REFLECTED-INERTIA" in binding:
+        ways += ["allow more inertia"] + ([] if PEAK_LINE in binding else ["lower the ratio"])
+    if "MASS" in binding:
+        ways += ["allow more mass"]
+    return ", ".join(ways).capitalize()

@@ -11,22 +11,24 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import NamedTuple
 
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Requirements
-from cqdd_design.design.requirements import MOST_RATIO
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.gearbox.checks.guide import CHECK_GUIDE
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.geometry.scale import largest_ring
-from cqdd_design.sizing.able import CONTINUOUS, EFFICIENCY, PEAK, TooHotError, first_guess
+from cqdd_design.sizing.able import CONTINUOUS, PEAK, TooHotError, first_guess
 from cqdd_design.sizing.bearable import LEAST, both_bearable, weaker
 from cqdd_design.sizing.frame import Goal
 from cqdd_design.sizing.hunt import Hunt, Progress
 from cqdd_design.sizing.infeasible import WORDS, SizingInfeasibleError, listed
 from cqdd_design.sizing.kinds import ranked
+from cqdd_design.sizing.looser import in_words, looser_figures
 from cqdd_design.sizing.motor_reach import PEAK_LINE, MotorShortError
+from cqdd_design.sizing.ratios import other_ratio
 from cqdd_design.sizing.slower import TOO_HOT, less_speed
 from cqdd_design.sizing.stage_tables import stage_tables
 from cqdd_design.sizing.verified import VerifiedDesign, new_hunt, searched
@@ -80,10 +82,14 @@ class _Way:
         return isinstance(self.refusal, TooHotError)
 
     @property
+    def short(self) -> tuple[str, ...]:
+        """Lines that it fell short of."""
+        return self.refusal.binding if isinstance(self.refusal, SizingInfeasibleError) else ()
+
+    @property
     def beyond_space(self) -> tuple[str, ...]:
         """Lines that it fell short of and that space hardly helps."""
-        lines = self.refusal.binding if isinstance(self.refusal, SizingInfeasibleError) else ()
-        return tuple(line for line in lines if line.startswith(_NO_SPACE))
+        return tuple(line for line in self.short if line.startswith(_NO_SPACE))
 
     @property
     def doubtful(self) -> bool:
@@ -151,13 +157,15 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
     slower = less_speed(hunt, refusal, lambda own: _tried(hunt, own).found)
     if slower is not None:
         ways.append(f"continuous_speed {slower:g} rpm")
+    figures = looser_figures(hunt, refusal, partial(_answer, hunt))
+    told_figures = {} if figures is None else in_words(figures)
+    if told_figures:
+        ways.append(" with ".join(f"{key} {value}" for key, value in told_figures.items()))
     if isinstance(refusal, MotorShortError):
-        if PEAK_LINE in refusal.binding:
-            hunt.say("looking for the least ratio that fits")
-            ratio, tried, short = _least_ratio(hunt, asked, refusal.torque)
-            ways += [] if ratio is None else [f"ratio {ratio}"]
-            if short:
-                still[f"ratio {tried}"] = short
+        ratio, tried, short = other_ratio(hunt, refusal, partial(_at_ratio, hunt, asked))
+        ways += [] if ratio is None else [f"ratio {ratio}"]
+        if short:
+            still[f"ratio {tried}"] = short
     elif not less.hopeless:
         # What torque nobody stated has to fit is not known before a search.
         doubtful = PEAK in asked.derived or _Way(hunt, None, refusal).doubtful
@@ -176,8 +184,11 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
     if still:
         words = _titles(line for lines in still.values() for line in lines)
         told += f" With {' or '.join(still)} it is still short of {words}."
+    message = refusal.message.rstrip(".")
+    if refusal.estimate and (most or 0.0) > (refusal.most_torque or 0.0):
+        message = message.replace(refusal.estimate, "")
     return SizingInfeasibleError(
-        f"{refusal.message.rstrip('.')}. {told}".rstrip(),
+        f"{message}. {told}".rstrip(),
         binding=refusal.binding,
         most_torque=most,
         most_lasting_torque=lasting,
@@ -185,6 +196,7 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
         length_needed=needed.get("length"),
         ratio_needed=ratio,
         most_speed=slower,
+        figures=told_figures,
     )
 
 
@@ -196,27 +208,11 @@ def _torques(found: VerifiedDesign) -> str:
     )
 
 
-def _least_ratio(
-    hunt: Hunt, asked: Requirements, shaft: float
-) -> tuple[int | None, int, tuple[str, ...]]:
-    """The least ratio that fits, if any; that which was tried first, and what it is short of.
-
-    Parameters
-    ----------
-    shaft : float
-        Torque of the motor at most, N m.
-    """
-    usual = math.ceil(asked.peak_torque / (EFFICIENCY * shaft))
-    first = min(max(usual, asked.ratio + 1), MOST_RATIO)
-    found = None
-    for ratio in range(first, asked.ratio, -1):
-        changed = asked.unchecked_copy({"ratio": ratio})
-        way = _tried(replace(hunt, tables=stage_tables(ratio)), changed)
-        if way.found is None:
-            lines = way.refusal.binding if isinstance(way.refusal, SizingInfeasibleError) else ()
-            return found, first, () if found else lines
-        found = ratio
-    return found, first, ()
+def _at_ratio(hunt: Hunt, asked: Requirements, ratio: int) -> tuple[bool, tuple[str, ...]]:
+    """Whether a design is found at another ratio, and the lines that it falls short of."""
+    changed = asked.unchecked_copy({"ratio": ratio})
+    way = _tried(replace(hunt, tables=stage_tables(ratio)), changed)
+    return way.found is not None, way.short
 
 
 def _less_torque(hunt: Hunt, refusal: SizingInfeasibleError) -> _Way:
@@ -328,6 +324,13 @@ def _tried(hunt: Hunt, asked: Requirements) -> _Way:
         return _Way(own, searched(own, asked), None)
     except InfeasibleError as refusal:
         return _Way(own, None, refusal)
+
+
+def _answer(
+    hunt: Hunt, asked: Requirements
+) -> tuple[VerifiedDesign | None, InfeasibleError | None]:
+    way = _tried(hunt, asked)
+    return way.found, way.refusal
 
 
 def _new(hunt: Hunt, asked: Requirements) -> Hunt:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from types import MappingProxyType
 
 from cqdd_design.design import Requirements
 from cqdd_design.errors import InfeasibleError
@@ -34,6 +35,19 @@ TRIALS = 20
 """Of sizing to the verdict."""
 _MOTOR = frozenset({"MOTOR-PEAK", "MOTOR-CONTINUOUS"})
 """Lines whose value is a torque that fits."""
+FIGURES: Mapping[str, str] = MappingProxyType(
+    {
+        "MASS": "mass",
+        "REFLECTED-INERTIA": "reflected_inertia",
+        "BACKLASH": "backlash",
+        "LOST-MOTION": "lost_motion",
+        "STIFFNESS": "stiffness",
+        "EFFICIENCY": "efficiency",
+        "SURFACE-TEMPERATURE": "surface_temperature",
+        "BORE": "bore",
+    }
+)
+"""Requirements by the lines that hold a figure of a design against them."""
 
 
 def nothing(hunt: Hunt) -> SizingInfeasibleError:
@@ -64,16 +78,18 @@ def nothing(hunt: Hunt) -> SizingInfeasibleError:
         f"{_asked(asked)} do not fit in {_space(asked)}: {listed(words)} "
         f"{'binds' if len(words) == 1 else 'bind'}"
     )
+    estimate = ""
     if share < 1.0:
         parts = "with what part errors take" if hunt.has_extra else "of perfect parts"
         so = f", with {learnt}," if learnt else ""
-        text += f"; by the contact equilibrium {parts}{so} {_carried(asked, share)} carried"
+        estimate = f"; by the contact equilibrium {parts}{so} {_carried(asked, share)} carried"
     closer = ", or state closer [tolerances] in a design" if hunt.has_extra else ""
     bore = "" if asked.bore is None else ", ask for a smaller bore"
     return SizingInfeasibleError(
-        f"{text}. Ask for less torque, give more space{bore}{closer}.",
+        f"{text}{estimate}. Ask for less torque, give more space{bore}{closer}.",
         binding=(*(("YIELD",) if hunt.has_extra else ()), *binding),
         most_torque=rounded_down(share * asked.peak_torque, 2) if share < 1.0 else None,
+        estimate=estimate,
     )
 
 
@@ -229,4 +245,14 @@ def short_of(short: Sequence[Check], up_to: float = 0.0) -> SizingInfeasibleErro
         most_torque=most.get("MOTOR-PEAK"),
         most_lasting_torque=most.get("MOTOR-CONTINUOUS"),
         most_speed=up_to or None,
+        shares=shares(short),
     )
+
+
+def shares(lines: Iterable[Check]) -> dict[str, float]:
+    """Of every figure that is short: its value over what is asked, by the requirement's key."""
+    return {
+        FIGURES[line.id]: line.value / line.limit
+        for line in lines
+        if line.id in FIGURES and line.value and line.limit
+    }

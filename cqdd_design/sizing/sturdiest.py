@@ -57,9 +57,10 @@ def strong_and_sound(hunt: Hunt) -> tuple[Found, Verdict] | None:
         return None
     hunt.say("judging the strongest gearboxes")
     # By one measure for all, since what is asked of a bearing grows with each look at it; and
-    # whatever has been asked of shafts since.
+    # whatever has been asked of shafts since. Of a nearly sound one nothing may have been asked.
     nearest = max(hunt.nearly, key=hunt.nearly.__getitem__)
-    hunt = replace(hunt, least_bore=0.0, usual=hunt.extra_of[nearest], extra_of={})
+    measure = hunt.extra_of.get(nearest, hunt.extra_for(nearest))
+    hunt = replace(hunt, least_bore=0.0, usual=measure, extra_of={})
     verdicts = (_sound(hunt, kind) for kind in _sturdiest(hunt))
     return next((one for one in verdicts if one is not None), None)
 

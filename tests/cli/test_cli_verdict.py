@@ -9,7 +9,7 @@ import pytest
 from terminal_lines import too_wide
 
 from cqdd_design.cli.tables import binding
-from cqdd_design.design import Requirements, save_design
+from cqdd_design.design import Requirements, load_design, save_design
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.sizing import size
 
@@ -26,6 +26,24 @@ def test_check_and_report_say_the_same(cqdd, paper_design_file, tmp_path):
     assert report["results"]["verdict"] == check["results"]["verdict"]
     page = (tmp_path / "reports" / "cqdd-10.html").read_text()
     assert "Does not meet its requirements" in page
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("key", ["backlash", "stiffness"])
+def test_analyse_draws_gearboxes_where_their_lines_are_asked_for(
+    cqdd, paper_design_file, tmp_path, key
+):
+    """`size --stiffness` wrote a design whose verdict is yes, and of which `analyse` knew less."""
+    asked = {"backlash": "6 arcmin", "stiffness": "1 N*m/arcmin"}
+    design = tmp_path / "asked.toml"
+    paper = load_design(paper_design_file)
+    save_design(paper.replacing({f"requirements.{key}": asked[key]}), design)
+    check = cqdd("check", design, "--json").document
+    analyse = cqdd("analyse", design, "--json").document
+    assert lines_of(check) == lines_of(analyse)
+    assert lines_of(check)[key.upper()]["status"] in {"pass", "warn", "fail"}
+    assert "YIELD" in lines_of(analyse)
+    assert "`check` draws" not in cqdd("analyse", design).stdout
 
 
 @pytest.mark.deep

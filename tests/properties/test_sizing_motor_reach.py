@@ -99,6 +99,59 @@ def test_what_no_gearbox_helps_is_refused_before_any_search(given, binding, said
     assert ("raise the ratio" in caught.value.message) == ("MOTOR-PEAK" in binding)
 
 
+@pytest.mark.parametrize(
+    ("given", "binding", "said", "ratio"),
+    [
+        ({"reflected_inertia": "0.0871 kg*m^2", "mass": "0.72 kg"}, (), (), None),
+        (
+            {"reflected_inertia": "0.0869 kg*m^2"},
+            ("REFLECTED-INERTIA",),
+            (
+                "its rotor of 0.00087 kg*m^2 alone is felt as 0.087 of 0.0869",
+                "Allow more inertia, ",
+            ),
+            9,
+        ),
+        (
+            {"mass": "700 g"},
+            ("MASS",),
+            ("it weighs 0.71 of 0.7 kg itself", "Allow more mass"),
+            None,
+        ),
+        (
+            {"mass": "500 g", "reflected_inertia": "0.0139 kg*m^2", "peak_torque": "130 N*m"},
+            ("MOTOR-PEAK", "REFLECTED-INERTIA", "MASS"),
+            ("Ask for less torque, raise the ratio, allow more inertia, allow more mass, or take",),
+            3,
+        ),
+    ],
+)
+def test_a_motor_that_is_more_than_the_actuator_may_be_is_refused_at_once(
+    given, binding, said, ratio
+):
+    """By its catalogue: 0.71 kg and 0.00087 kg m^2. Such a search took five minutes."""
+    if not binding:
+        refuse_weak_motor(asked(**given), MOTOR, None)
+        return
+    with pytest.raises(MotorShortError) as caught:
+        refuse_weak_motor(asked(**given), MOTOR, None)
+    assert caught.value.binding == binding
+    assert caught.value.most_ratio == ratio
+    for words in said:
+        assert words in caught.value.message
+
+
+def test_what_of_a_motor_is_not_known_refuses_nothing():
+    bare = replace(MOTOR, mass=None, rotor_inertia=None)
+    refuse_weak_motor(asked(mass="50 g", reflected_inertia="1e-6 kg*m^2"), bare, None)
+
+
+def test_no_actuator_is_lighter_than_its_motor():
+    found = resolve(load_design(DESIGN)).inertia
+    assert found.whole_mass > found.motor.mass
+    assert found.reflected_input > found.motor.rotor_inertia
+
+
 def test_a_torque_that_nobody_stated_is_lowered_and_not_refused():
     free = asked(peak_torque="120 N*m").deriving(PEAK)
     refuse_weak_motor(free, MOTOR, None)

@@ -125,6 +125,17 @@ def test_the_first_that_is_sound_is_taken(light: Found, monkeypatch: pytest.Monk
     assert len(seen) == 2
 
 
+def test_a_bearing_of_which_no_reserve_is_known_is_nearly_sound_too(
+    light: Found, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Hunts that learn apart share what was nearly sound: size at ratio 7, yield 0.99, crashed."""
+    hunt = short(light, 0.9)
+    hunt.nearly["needle cage K8x11x8"] = 0.95
+    seen = judging(monkeypatch, lambda _: "yes")
+    assert sturdiest.strong_and_sound(hunt) is not None
+    assert len(seen) == 1
+
+
 def test_one_that_jams_is_judged_again_with_more_clearance(
     light: Found, monkeypatch: pytest.MonkeyPatch
 ) -> None:

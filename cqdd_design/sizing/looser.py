@@ -1,0 +1,162 @@
+"""The figures, as mass or stiffness, that fit where those that are asked for do not."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from types import MappingProxyType
+
+from cqdd_design.design import Requirements
+from cqdd_design.design.tables import field_dimension
+from cqdd_design.errors import InfeasibleError
+from cqdd_design.geometry.limits import rounded_down, rounded_up
+from cqdd_design.sizing.hunt import Hunt
+from cqdd_design.sizing.infeasible import SizingInfeasibleError
+from cqdd_design.sizing.refusals import FIGURES, shares
+from cqdd_design.sizing.verified import VerifiedDesign
+from cqdd_design.units import parse_quantity
+
+TRIES = 4
+"""Searches for figures nearer to what is asked than those that fit."""
+_UNITS = MappingProxyType(
+    {
+        "mass": "kg",
+        "reflected_inertia": "kg*m^2",
+        "backlash": "arcmin",
+        "lost_motion": "arcmin",
+        "stiffness": "N*m/arcmin",
+        "surface_temperature": "degC",
+        "bore": "mm",
+    }
+)
+"""That figures are told in, as in their lines."""
+_AT_LEAST = frozenset({"stiffness", "efficiency", "bore"})
+_LOOSE = 100.0
+"""Factor of a requirement that hardly binds."""
+_NEAR = 1.02
+"""Factor within which nothing nearer is looked for."""
+
+Figures = dict[str, float]
+"""Requirements, in the units of their fields, by key."""
+_Search = Callable[[Requirements], tuple[VerifiedDesign | None, InfeasibleError | None]]
+
+
+def looser_figures(hunt: Hunt, refusal: SizingInfeasibleError, search: _Search) -> Figures | None:
+    """Figures with which a design is found, all else as asked, where they alone are short.
+
+    As near to what is asked as a few searches come. Tried first are those of the design that came
+    nearest, then those of a search that asks for hardly any.
+
+    Parameters
+    ----------
+    hunt : Hunt
+        That was refused.
+    search : callable
+        For a design of other requirements, or why there is none.
+    """
+    asked = hunt.requirements
+    keys = [FIGURES[line] for line in refusal.binding if line in FIGURES]
+    if not keys or any(line not in FIGURES and line != "YIELD" for line in refusal.binding):
+        return None
+    hunt.say("looking for the figures that fit")
+    too_much = {key: getattr(asked, key) for key in keys}
+    for figures in _first(asked, too_much, refusal, search):
+        found, _ = search(asked.unchecked_copy(figures))
+        if found is not None:
+            figures = _nearer(asked, figures, found, too_much, search)
+            return figures if _consistent(asked.unchecked_copy(figures)) else None
+    return None
+
+
+def _first(
+    asked: Requirements, too_much: Figures, refusal: SizingInfeasibleError, search: _Search
+) -> Iterator[Figures]:
+    """Figures that may fit."""
+    if too_much.keys() <= refusal.shares.keys():
+        yield {key: _told(key, refusal.shares[key] * most) for key, most in too_much.items()}
+    loose = {key: _eased(key, most, _LOOSE) for key, most in too_much.items()}
+    found, _ = search(asked.unchecked_copy(loose))
+    if found is not None:
+        yield _of(found, loose)
+
+
+def _nearer(
+    asked: Requirements,
+    fits: Figures,
+    found: VerifiedDesign,
+    too_much: Figures,
+    search: _Search,
+) -> Figures:
+    """Figures with which a design is found, and with little more none, in a few searches."""
+    has = _of(found, fits)
+    held: set[str] = set()
+    for _ in range(TRIES):
+        steps = {key: _between(key, fits[key], has[key], most) for key, most in too_much.items()}
+        changed = {key for key, step in steps.items() if step != fits[key]}
+        if not changed:
+            break
+        # What nothing changes does not keep the other figures away.
+        changed -= held if changed - held else set()
+        figures = fits | {key: steps[key] for key in changed}
+        more, error = search(asked.unchecked_copy(figures))
+        if more is not None:
+            fits, has = figures, _of(more, figures)
+            continue
+        lines = error.binding if isinstance(error, SizingInfeasibleError) else ()
+        short = {FIGURES[line] for line in lines if line in FIGURES} & changed
+        held |= short if changed - short else set()
+        too_much = too_much | {key: steps[key] for key in short or changed}
+        has = fits
+    return fits
+
+
+def _of(found: VerifiedDesign, stated: Figures) -> Figures:
+    """What a design has of the figures that were asked of it, or as they were asked."""
+    lines = [line for line in found.verdict.lines if FIGURES.get(line.id) in stated]
+    return stated | {key: _told(key, share * stated[key]) for key, share in shares(lines).items()}
+
+
+def _between(key: str, fits: float, has: float, too_much: float) -> float:
+    """A figure between one that fits and one that is too much; the former where they are close.
+
+    What the design that fits has of it, where that is more than was asked of it.
+    """
+    if _ratio(key, fits, too_much) <= _NEAR:
+        return fits
+    if _ratio(key, fits, has) > _NEAR and _ratio(key, has, too_much) > 1.0:
+        return has
+    middle = _told(key, math.sqrt(fits * too_much))
+    return middle if _ratio(key, fits, middle) > 1.0 else fits
+
+
+def _ratio(key: str, one: float, other: float) -> float:
+    """How much nearer the other is to what is asked, as a factor."""
+    return other / one if key in _AT_LEAST else one / other
+
+
+def _eased(key: str, value: float, factor: float) -> float:
+    return value / factor if key in _AT_LEAST else value * factor
+
+
+def _told(key: str, value: float) -> float:
+    """A figure rounded away from what is asked, in the unit that it is told in."""
+    rounded = rounded_down if key in _AT_LEAST else rounded_up
+    return rounded(value / _unit(key)) * _unit(key)
+
+
+def _unit(key: str) -> float:
+    dimension = field_dimension(Requirements.model_fields[key])
+    return 1.0 if dimension is None else parse_quantity(f"1 {_UNITS[key]}", dimension)
+
+
+def _consistent(asked: Requirements) -> bool:
+    """Whether a file with it can be read: backlash is part of lost motion."""
+    return asked.lost_motion is None or asked.lost_motion >= (asked.backlash or 0.0)
+
+
+def in_words(figures: Figures) -> dict[str, str]:
+    """Figures as a file has them."""
+    return {
+        key: f"{value / _unit(key):.6g} {_UNITS.get(key, '')}".rstrip()
+        for key, value in figures.items()
+    }
