@@ -1,12 +1,13 @@
 """Whether what a refusal of `size` names fits, and what is 2 % nearer to what was asked does not.
 
-    python benchmarks/sizing_nearest.py [--seeds 14,22,35]
+    python benchmarks/sizing_nearest.py [--seeds 14,22,35] [--figures 0-9]
 
-The seeds are those of `sizing_yes.py`. Each is sized as by a user, in a process of its own; of a
-refusal every requirement that it names is sized as by a user too, and then, by the same search
-without the ways out that a refusal looks for, the torques or the speed 2 % greater and the ring or
-length 2 % less (but not beyond what was asked). Exit code 1 where what is named does not fit, or
-what is nearer does: then the refusal could have named that.
+The seeds and figures are those of `sizing_yes.py`. Each is sized as by a user, in a process of its
+own; of a refusal every requirement that it names is sized as by a user too, and then, by the same
+search without the ways out that a refusal looks for, what lies 2 % nearer to what was asked: more
+torque or speed, a smaller ring or length, mass, stiffness and the like as they were asked for, and
+nothing beyond. Exit code 1 where what is named does not fit, or what is nearer does: then the
+refusal could have named that.
 """
 
 from __future__ import annotations
@@ -19,9 +20,9 @@ import tempfile
 import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from sizing_yes import Row, numbers, of_seed
+from sizing_yes import Row, numbers, of_figures, of_seed
 
 from cqdd_design.design import requirements_from_mapping
 from cqdd_design.design.motor import read_motor
@@ -48,7 +49,7 @@ def asked_of(row: Row) -> dict[str, str]:
     return dict(zip(words[::2], words[1::2], strict=True))
 
 
-def ways(asked: dict[str, str], told: dict[str, float | None]) -> Iterator[Way]:
+def ways(asked: dict[str, str], told: dict[str, Any]) -> Iterator[Way]:
     """Every requirement that a refusal names, by its JSON."""
     peak, lasting = told["most_peak_torque_Nm"], told["most_continuous_torque_Nm"]
     if peak is not None and lasting is not None:
@@ -72,7 +73,21 @@ def ways(asked: dict[str, str], told: dict[str, float | None]) -> Iterator[Way]:
         yield Way(f"{key} {speed:g} rpm", {key: f"{speed:g} rpm"}, {key: f"{more:.6g} rpm"})
     if told["ratio_needed"] is not None:
         ratio = int(told["ratio_needed"])
-        yield Way(f"ratio {ratio}", {"ratio": str(ratio)}, {"ratio": str(ratio - 1)})
+        nearer = ratio - 1 if ratio > int(asked["ratio"]) else ratio + 1
+        yield Way(f"ratio {ratio}", {"ratio": str(ratio)}, {"ratio": str(nearer)})
+    figures = told.get("requirements_that_fit")
+    if figures is not None:
+        named = {key.replace("_", "-"): text for key, text in figures.items()}
+        words = ", ".join(f"{key} {text}" for key, text in named.items())
+        yield Way(words, named, {key: _nearer(named[key], asked[key]) for key in named})
+
+
+def _nearer(named: str, asked: str) -> str:
+    """A figure 2 % nearer to what was asked for, or that."""
+    value, unit = _number(named), named.partition(" ")[2]
+    step = value * (1.0 - NEARER if value > _number(asked) else 1.0 + NEARER)
+    ends = sorted((value, _number(asked)))
+    return f"{min(max(step, ends[0]), ends[1]):.6g} {unit}".rstrip()
 
 
 def _torques(peak: float, lasting: float) -> dict[str, str]:
@@ -100,8 +115,10 @@ def sized(folder: Path, asked: dict[str, str]) -> dict[str, object]:
 def fits(folder: Path, asked: dict[str, str]) -> bool:
     """Whether the search of `size` finds a design, without the ways out of a refusal."""
     own = {"motor-file", "ambient"}
-    mapping = {key.replace("-", "_"): asked[key] for key in asked if key not in own}
+    mapping: dict[str, Any] = {key.replace("-", "_"): asked[key] for key in asked if key not in own}
     mapping["ratio"] = int(asked["ratio"])
+    if "efficiency" in asked:
+        mapping["efficiency"] = float(asked["efficiency"])
     requirements = requirements_from_mapping(mapping)
     row = None
     if "motor-file" in asked:
@@ -114,9 +131,8 @@ def fits(folder: Path, asked: dict[str, str]) -> bool:
     return True
 
 
-def looked_at(seed: int) -> Iterator[tuple[str, bool]]:
-    """What is told of a seed, a line after another, and whether the refusal kept its word."""
-    row = of_seed(seed)
+def looked_at(row: Row) -> Iterator[tuple[str, bool]]:
+    """What is told of a row, a line after another, and whether the refusal kept its word."""
     asked, began = asked_of(row), time.perf_counter()
     with tempfile.TemporaryDirectory() as place:
         folder = Path(place)
@@ -149,12 +165,14 @@ def main() -> None:
     """Print a line after another."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--seeds", default="14,22,35,43,44,48,53,56")
+    parser.add_argument("--figures", default="")
     given = parser.parse_args()
     broken = 0
-    for seed in numbers(given.seeds):
-        for text, kept in looked_at(seed):
+    rows = [*map(of_seed, numbers(given.seeds)), *map(of_figures, numbers(given.figures))]
+    for row in rows:
+        for text, kept in looked_at(row):
             broken += not kept
-            print(f"seed {seed:<4d} {text}", flush=True)
+            print(f"{row.name:10s} {text}", flush=True)
     print(f"{broken} that do not keep their word")
     sys.exit(broken > 0)
 

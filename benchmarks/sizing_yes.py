@@ -1,9 +1,11 @@
 """Whether `size` keeps its word: its yes by every other command, over ratios and requirements.
 
-    python benchmarks/sizing_yes.py [--ratios 4-40] [--seeds 0-59] [--short]
+    python benchmarks/sizing_yes.py [--ratios 4-40] [--seeds 0-59] [--figures 0-29] [--short]
 
 A row for every ratio with nothing else asked, and for every seed a requirement drawn at random:
-ratio, torques, speed, life, ring, length, air and motor. Each is sized as by a user, in a process
+ratio, torques, speed, life, ring, length, air and motor. With `--figures` a row more for every seed
+of its own: lighter torques, and one to four of what else can be asked for, as mass, stiffness or
+loads from outside. Each is sized as by a user, in a process
 of its own; of the file that is written `check`, `analyse`, `bench`, `tolerance` and `report` are
 then asked (`--short`: `check` alone), and every line of their verdicts is compared, words and
 numbers, these to nine digits: a motor's file may state in m what the design then states in mm.
@@ -35,6 +37,27 @@ _LENGTHS = (
     "outer_diameter", "length", "bore_diameter", "gap_diameter", "stack_length", "rotor_length",
     "slot_depth",
 )  # fmt: skip
+_FIGURES = (
+    ("mass", 0.6, 2.5, "kg"),
+    ("reflected-inertia", 0.01, 0.4, "kg*m^2"),
+    ("backlash", 4.0, 30.0, "arcmin"),
+    ("lost-motion", 6.0, 40.0, "arcmin"),
+    ("stiffness", 0.3, 8.0, "N*m/arcmin"),
+    ("efficiency", 0.5, 0.95, ""),
+    ("surface-temperature", 50.0, 110.0, "degC"),
+    ("bore", 3.0, 10.0, "mm"),
+    ("speed-at-peak", 0.3, 3.0, "rad/s"),
+    ("shock-speed", 0.2, 3.0, "rad/s"),
+    ("external-moment", 2.0, 40.0, "N*m"),
+    ("external-axial", 50.0, 800.0, "N"),
+    ("external-radial", 50.0, 800.0, "N"),
+    ("voltage", 20.0, 60.0, "V"),
+    ("current", 8.0, 60.0, "A"),
+    ("life", 100.0, 20000.0, "h"),
+    ("outer-diameter", 45.0, 80.0, "mm"),
+    ("length", 10.0, 35.0, "mm"),
+)
+"""Options of `size`, with the range that they are drawn from and its unit."""
 _REFUSED = 3
 """Exit code of a requirement that does not fit."""
 
@@ -83,6 +106,29 @@ def of_seed(seed: int) -> Row:
     )
 
 
+def of_figures(seed: int) -> Row:
+    """Modest torques with one to four of the other requirements, some of them out of reach."""
+    draw = np.random.default_rng(seed)
+    known = [one for one in motors().values() if not lacking(one)]
+    motor = known[draw.integers(len(known))]
+    ratio = int(draw.integers(6, 26))
+    peak = min(float(draw.uniform(4.0, 35.0)), 0.45 * ratio * motor.peak_torque)
+    asked = {
+        "ratio": str(ratio),
+        "peak-torque": f"{peak:.3g} N*m",
+        "continuous-torque": f"{peak * draw.uniform(0.05, 0.2):.3g} N*m",
+        "continuous-speed": f"{draw.choice([150, 300, 500])} rpm",
+        "ambient": f"{draw.choice([-10, 25, 40])} degC",
+        "motor": motor.name,
+    }
+    for row in draw.permutation(len(_FIGURES))[: draw.integers(1, 5)]:
+        key, least, most, unit = _FIGURES[row]
+        # By the logarithm: from little to much.
+        value = math.exp(draw.uniform(math.log(least), math.log(most)))
+        asked[key] = f"{value:.2g} {unit}".rstrip()
+    return Row(f"figures {seed}", tuple(word for key in asked for word in (f"--{key}", asked[key])))
+
+
 def motor_file(like: Motor, scale: float) -> str:
     """A motor at another size as a user would write it down, by the powers of the scale."""
     figures = {
@@ -129,7 +175,7 @@ def difference(folder: Path, design: str, sized: dict[str, object], *, short: bo
         if not said:
             return f"{command} ended with {code}: {error.strip()}"
         lines = _lines(said)
-        # The share of gearboxes is no line of `analyse`.
+        # The share of gearboxes is a line of `analyse` only where another of them is asked for.
         for name in sorted(({*own, *lines}) - ({"YIELD"} if command == "analyse" else set())):
             if not _same(own.get(name), lines.get(name)):
                 return f"{command} differs in {name}"
@@ -186,15 +232,17 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--ratios", default="4-40")
     parser.add_argument("--seeds", default="0-59")
+    parser.add_argument("--figures", default="")
     parser.add_argument("--short", action="store_true")
     given = parser.parse_args()
     rows = [*map(of_ratio, numbers(given.ratios)), *map(of_seed, numbers(given.seeds))]
+    rows += map(of_figures, numbers(given.figures))
     broken = 0
     for row in rows:
         text, kept = looked_at(row, short=given.short)
         broken += not kept
         print(f"{row.name:10s} {text}", flush=True)
-        if row.name.startswith("seed"):
+        if not row.name.startswith("ratio"):
             print(f"           {' '.join(row.options)}", flush=True)
     print(f"{len(rows) - broken} of {len(rows)} kept")
     sys.exit(broken > 0)
