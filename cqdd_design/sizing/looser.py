@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from types import MappingProxyType
+from typing import NamedTuple
 
 from cqdd_design.design import Requirements
 from cqdd_design.design.tables import field_dimension
@@ -41,11 +42,29 @@ Figures = dict[str, float]
 _Search = Callable[[Requirements], tuple[VerifiedDesign | None, InfeasibleError | None]]
 
 
-def looser_figures(hunt: Hunt, refusal: SizingInfeasibleError, search: _Search) -> Figures | None:
-    """Figures with which a design is found, all else as asked, where they alone are short.
+class Looser(NamedTuple):
+    """Figures with which a design is found, all else as asked.
 
-    As near to what is asked as a few searches come. Tried first are those of the design that came
-    nearest, then those of a search that asks for hardly any.
+    Attributes
+    ----------
+    figures : dict of str to float
+        Empty where none is found.
+    keys : tuple of str
+        Requirements that were looked at.
+    short : tuple of str
+        Lines that are short however little is asked of them, where that was looked at.
+    """
+
+    figures: Figures
+    keys: tuple[str, ...] = ()
+    short: tuple[str, ...] = ()
+
+
+def looser_figures(hunt: Hunt, refusal: SizingInfeasibleError, search: _Search) -> Looser:
+    """Figures that fit where they alone are short, as near to what is asked as a few searches come.
+
+    Tried first are those of the design that came nearest, then those of a search that asks for
+    hardly any.
 
     Parameters
     ----------
@@ -55,29 +74,33 @@ def looser_figures(hunt: Hunt, refusal: SizingInfeasibleError, search: _Search) 
         For a design of other requirements, or why there is none.
     """
     asked = hunt.requirements
-    keys = [FIGURES[line] for line in refusal.binding if line in FIGURES]
+    keys = tuple(FIGURES[line] for line in refusal.binding if line in FIGURES)
     if not keys or any(line not in FIGURES and line != "YIELD" for line in refusal.binding):
-        return None
+        return Looser({})
     hunt.say("looking for the figures that fit")
     too_much = {key: getattr(asked, key) for key in keys}
-    for figures in _first(asked, too_much, refusal, search):
-        found, _ = search(asked.unchecked_copy(figures))
-        if found is not None:
-            figures = _nearer(asked, figures, found, too_much, search)
-            return figures if _consistent(asked.unchecked_copy(figures)) else None
-    return None
-
-
-def _first(
-    asked: Requirements, too_much: Figures, refusal: SizingInfeasibleError, search: _Search
-) -> Iterator[Figures]:
-    """Figures that may fit."""
     if too_much.keys() <= refusal.shares.keys():
-        yield {key: _told(key, refusal.shares[key] * most) for key, most in too_much.items()}
+        nearest = {key: _told(key, refusal.shares[key] * most) for key, most in too_much.items()}
+        found, _ = search(asked.unchecked_copy(nearest))
+        if found is not None:
+            return _told_of(asked, _nearer(asked, nearest, found, too_much, search))
     loose = {key: _eased(key, most, _LOOSE) for key, most in too_much.items()}
-    found, _ = search(asked.unchecked_copy(loose))
-    if found is not None:
-        yield _of(found, loose)
+    found, error = search(asked.unchecked_copy(loose))
+    if found is None:
+        lines = error.binding if isinstance(error, SizingInfeasibleError) else ()
+        return Looser({}, keys, lines)
+    fits = _of(found, loose)
+    found, _ = search(asked.unchecked_copy(fits))
+    if found is None:
+        return Looser({}, keys)
+    return _told_of(asked, _nearer(asked, fits, found, too_much, search))
+
+
+def _told_of(asked: Requirements, figures: Figures) -> Looser:
+    """Figures, but none with which no file could be read: backlash is part of lost motion."""
+    changed = asked.unchecked_copy(figures)
+    reads = changed.lost_motion is None or changed.lost_motion >= (changed.backlash or 0.0)
+    return Looser(figures if reads else {}, tuple(figures))
 
 
 def _nearer(
@@ -147,11 +170,6 @@ def _told(key: str, value: float) -> float:
 def _unit(key: str) -> float:
     dimension = field_dimension(Requirements.model_fields[key])
     return 1.0 if dimension is None else parse_quantity(f"1 {_UNITS[key]}", dimension)
-
-
-def _consistent(asked: Requirements) -> bool:
-    """Whether a file with it can be read: backlash is part of lost motion."""
-    return asked.lost_motion is None or asked.lost_motion >= (asked.backlash or 0.0)
 
 
 def in_words(figures: Figures) -> dict[str, str]:

@@ -157,10 +157,12 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
     slower = less_speed(hunt, refusal, lambda own: _tried(hunt, own).found)
     if slower is not None:
         ways.append(f"continuous_speed {slower:g} rpm")
-    figures = looser_figures(hunt, refusal, partial(_answer, hunt))
-    told_figures = {} if figures is None else in_words(figures)
-    if told_figures:
-        ways.append(" with ".join(f"{key} {value}" for key, value in told_figures.items()))
+    looser = looser_figures(hunt, refusal, partial(_answer, hunt))
+    fit = in_words(looser.figures)
+    if fit:
+        ways.append(" with ".join(f"{key} {value}" for key, value in fit.items()))
+    elif looser.short:
+        still[f"any {listed([*looser.keys])}"] = looser.short
     if isinstance(refusal, MotorShortError):
         ratio, tried, short = other_ratio(hunt, refusal, partial(_at_ratio, hunt, asked))
         ways += [] if ratio is None else [f"ratio {ratio}"]
@@ -196,7 +198,7 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
         length_needed=needed.get("length"),
         ratio_needed=ratio,
         most_speed=slower,
-        figures=told_figures,
+        figures=fit,
     )
 
 

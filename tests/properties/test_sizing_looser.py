@@ -63,9 +63,9 @@ def refusal(stiffness=None, mass=None):
     return short_of([line(k, v, asked[k]) for k, v in values.items() if v is not None])
 
 
-def told(figures):
-    assert figures is not None
-    return {k: v / ARCMIN if k == "stiffness" else v for k, v in figures.items()}
+def told(looser):
+    assert looser.figures
+    return {k: v / ARCMIN if k == "stiffness" else v for k, v in looser.figures.items()}
 
 
 def test_what_the_nearest_design_has_is_tried_first():
@@ -108,12 +108,24 @@ def test_a_figure_that_nothing_changes_does_not_keep_the_other_away():
 @pytest.mark.parametrize("other", ["MOTOR-CONTINUOUS", "CONTACT-RING-PEAK"])
 def test_beside_anything_else_that_is_short_no_figures_are_looked_for(other):
     short = SizingInfeasibleError("no.", binding=("MASS", other), most_torque=None)
-    assert looser.looser_figures(new(), short, None) is None
-    assert looser.looser_figures(new(), refusal(), None) is None
+    assert looser.looser_figures(new(), short, None) == looser.Looser({})
+    assert looser.looser_figures(new(), refusal(), None) == looser.Looser({})
 
 
-def test_what_no_search_finds_is_not_told():
-    assert looser.looser_figures(new(), refusal(1.2), lambda _: (None, refusal(1.2))) is None
+def test_what_is_short_with_any_figure_is_told_instead(monkeypatch):
+    hot = SizingInfeasibleError("no.", binding=("SURFACE-TEMPERATURE",), most_torque=None)
+    answer = looser.looser_figures(new(), refusal(1.2), lambda _: (None, hot))
+    assert answer == ({}, ("stiffness",), ("SURFACE-TEMPERATURE",))
+    monkeypatch.setattr(
+        nearest, "_less_torque", lambda hunt, error: nearest._Way(hunt, None, error)
+    )
+    monkeypatch.setattr(nearest, "_limits", lambda _: iter(()))
+    monkeypatch.setattr(nearest, "looser_figures", lambda *_: answer)
+    error = nearest._with_ways(refusal(1.2), new())
+    assert error.message.endswith(
+        "With any stiffness it is still short of temperature of housing and cover."
+    )
+    assert "requirements_that_fit" not in error.to_dict()
 
 
 def test_figures_that_contradict_what_is_asked_are_not_told():
@@ -128,7 +140,7 @@ def test_figures_that_contradict_what_is_asked_are_not_told():
         tried.append(own.backlash * ARCMIN)
         return (found, None) if tried[-1] >= 4.0 - 1e-9 else (None, short)
 
-    assert looser.looser_figures(hunt, short, search) is None
+    assert looser.looser_figures(hunt, short, search) == looser.Looser({}, ("backlash",))
     assert max(tried) >= 4.0
 
 
