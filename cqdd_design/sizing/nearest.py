@@ -29,6 +29,7 @@ from cqdd_design.sizing.kinds import ranked
 from cqdd_design.sizing.looser import in_words, looser_figures
 from cqdd_design.sizing.motor_reach import PEAK_LINE, MotorShortError
 from cqdd_design.sizing.ratios import other_ratio
+from cqdd_design.sizing.refusals import FIGURES
 from cqdd_design.sizing.slower import TOO_HOT, less_speed
 from cqdd_design.sizing.stage_tables import stage_tables
 from cqdd_design.sizing.verified import VerifiedDesign, new_hunt, searched
@@ -139,7 +140,7 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
     asked = hunt.requirements
     less = _Way(hunt, None, refusal)
     stated = PEAK not in asked.derived and not asked.load_cases
-    if stated or not less.hopeless:
+    if stated or not less.hopeless or set(refusal.binding) & FIGURES.keys():
         # The ways out take minutes; whoever knows enough need not wait for them.
         hunt.say(f"{refusal.message.rstrip('.')}.")
     if stated:

@@ -156,7 +156,8 @@ def test_figures_are_told_as_a_file_has_them():
     assert read.stiffness == pytest.approx(figures["stiffness"], rel=1e-9)
 
 
-def test_a_refusal_names_them(monkeypatch):
+@pytest.mark.parametrize("free", [False, True])
+def test_a_refusal_names_them(monkeypatch, free):
     monkeypatch.setattr(
         nearest, "_less_torque", lambda hunt, error: nearest._Way(hunt, None, error)
     )
@@ -173,8 +174,14 @@ def test_a_refusal_names_them(monkeypatch):
         return found
 
     monkeypatch.setattr(nearest, "searched", searched)
+    said = []
+    asked = requirements_from_mapping(ASKED)
+    if free:
+        asked = asked.deriving("peak_torque", "continuous_torque")
     with pytest.raises(SizingInfeasibleError) as caught:
-        nearest.size_or_nearest(requirements_from_mapping(ASKED))
+        nearest.size_or_nearest(asked, said.append)
+    # What is short is told before the figures are looked for, whatever else was stated.
+    assert said.index("looking for the figures that fit") > said.index(first.message)
     assert "What fits, by the whole verdict: stiffness 1.32 N*m/arcmin with mass 1.24 kg." in (
         caught.value.message
     )
