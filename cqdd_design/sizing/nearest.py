@@ -159,9 +159,9 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
     if slower is not None:
         ways.append(f"continuous_speed {slower:g} rpm")
     looser = looser_figures(hunt, refusal, partial(_answer, hunt))
-    fit = in_words(looser.figures)
-    if fit:
-        ways.append(" with ".join(f"{key} {value}" for key, value in fit.items()))
+    figures = in_words(looser.figures)
+    if figures:
+        ways.append(" with ".join(f"{key} {value}" for key, value in figures.items()))
     elif looser.short:
         still[f"any {listed([*looser.keys])}"] = looser.short
     if isinstance(refusal, MotorShortError):
@@ -188,8 +188,11 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
         words = _titles(line for lines in still.values() for line in lines)
         told += f" With {' or '.join(still)} it is still short of {words}."
     message = refusal.message.rstrip(".")
-    if refusal.estimate and (most or 0.0) > (refusal.most_torque or 0.0):
-        message = message.replace(refusal.estimate, "")
+    if most and lasting and refusal.most_torque:
+        # An estimate of both torques in proportion, which a search may overtake.
+        fit = min(most / asked.peak_torque, lasting / asked.continuous_torque)
+        if fit > refusal.most_torque / asked.peak_torque:
+            message = message.replace(refusal.estimate, "")
     return SizingInfeasibleError(
         f"{message}. {told}".rstrip(),
         binding=refusal.binding,
@@ -199,7 +202,7 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
         length_needed=needed.get("length"),
         ratio_needed=ratio,
         most_speed=slower,
-        figures=fit,
+        figures=figures,
     )
 
 

@@ -82,7 +82,7 @@ def nothing(hunt: Hunt) -> SizingInfeasibleError:
     if share < 1.0:
         parts = "with what part errors take" if hunt.has_extra else "of perfect parts"
         so = f", with {learnt}," if learnt else ""
-        estimate = f"; by the contact equilibrium {parts}{so} {_carried(asked, share)} carried"
+        estimate = f"; by the contact equilibrium {parts}{so} {_carried(asked, share)}"
     closer = ", or state closer [tolerances] in a design" if hunt.has_extra else ""
     bore = "" if asked.bore is None else ", ask for a smaller bore"
     return SizingInfeasibleError(
@@ -144,11 +144,12 @@ def _no_shaft(hunt: Hunt) -> SizingInfeasibleError:
 
 def _carried(asked: Requirements, share: float) -> str:
     if asked.load_cases:
-        return f"no more than about {100.0 * rounded_down(share, 2):.0f} % of these torques are"
+        part = 100.0 * rounded_down(share, 2)
+        return f"no more than about {part:.0f} % of these torques are carried"
     peak, lasting = (
         rounded_down(share * one, 2) for one in (asked.peak_torque, asked.continuous_torque)
     )
-    return f"no more than about {peak:g} and {lasting:g} N*m are"
+    return f"no more than about {peak:g} and {lasting:g} N*m are carried in this proportion"
 
 
 def _asked(asked: Requirements) -> str:

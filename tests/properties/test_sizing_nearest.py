@@ -343,8 +343,12 @@ def test_the_speed_is_told_at_which_the_torque_is_held(monkeypatch, first, most,
     assert len(tried) == rounds
 
 
-@pytest.mark.parametrize(("peak", "told"), [(27.0, False), (11.0, True)])
-def test_an_estimate_that_a_search_overtakes_is_not_told_beside_it(monkeypatch, peak, told):
+@pytest.mark.parametrize(
+    ("peak", "lasting", "told"), [(27.0, 5.0, False), (11.0, 5.0, True), (27.0, 1.5, True)]
+)
+def test_an_estimate_that_a_search_overtakes_is_not_told_beside_it(
+    monkeypatch, peak, lasting, told
+):
     """`no more than about 12 N m are carried` stood before `what fits: peak_torque 27.3 N m`."""
     estimate = "; no more than about 12 N*m are carried"
     short = SizingInfeasibleError(
@@ -353,7 +357,7 @@ def test_an_estimate_that_a_search_overtakes_is_not_told_beside_it(monkeypatch, 
         most_torque=12.0,
         estimate=estimate,
     )
-    fits = found(peak_torque=peak, continuous_torque=5.0)
+    fits = found(peak_torque=peak, continuous_torque=lasting)
     monkeypatch.setattr(nearest, "_less_torque", lambda hunt, _: nearest._Way(hunt, fits, None))
     monkeypatch.setattr(nearest, "_more_again", lambda _, found, refusal: found)
     monkeypatch.setattr(nearest, "_limits", lambda _: iter(()))
@@ -361,7 +365,7 @@ def test_an_estimate_that_a_search_overtakes_is_not_told_beside_it(monkeypatch, 
     error = nearest._with_ways(short, hunt)
     assert (estimate in error.message) == told
     assert error.message.startswith("it does not fit")
-    assert f"peak_torque {peak:g} N*m with continuous_torque 5 N*m" in error.message
+    assert f"peak_torque {peak:g} N*m with continuous_torque {lasting:g} N*m" in error.message
 
 
 def test_a_speed_that_fits_is_told_beside_why_torque_does_not_help(monkeypatch):
