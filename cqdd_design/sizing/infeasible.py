@@ -16,6 +16,7 @@ from cqdd_design.errors import InfeasibleError
 from cqdd_design.gearbox.checks.guide import CHECK_GUIDE
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.geometry.scale import largest_ring
+from cqdd_design.results import Check
 from cqdd_design.sizing.choose import strongest
 from cqdd_design.sizing.finish import LOAD_CHECKS, torque_reserve
 from cqdd_design.sizing.frame import Fit, search_frame
@@ -83,8 +84,8 @@ class SizingInfeasibleError(InfeasibleError):
     figures : mapping of str to str
         Requirements of mass, stiffness and the like that fit in place of those that are short, as
         unit strings; looked for only where they alone are.
-    shares : mapping of str to float
-        Of such requirements, what the design that came nearest has over what is asked.
+    short : tuple of Check
+        Lines of the design that came nearest, where one was judged.
     estimate : str
         The part of the message on what is carried, no bound: a search may find more.
     """
@@ -101,7 +102,7 @@ class SizingInfeasibleError(InfeasibleError):
         ratio_needed: int | None = None,
         most_speed: float | None = None,
         figures: Mapping[str, str] = MappingProxyType({}),
-        shares: Mapping[str, float] = MappingProxyType({}),
+        short: tuple[Check, ...] = (),
         estimate: str = "",
     ) -> None:
         super().__init__(message)
@@ -113,7 +114,7 @@ class SizingInfeasibleError(InfeasibleError):
         self.ratio_needed = ratio_needed
         self.most_speed = most_speed
         self.figures = figures
-        self.shares = shares
+        self.short = short
         self.estimate = estimate
 
     def to_dict(self) -> dict[str, object]:

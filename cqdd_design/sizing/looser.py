@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -11,9 +11,10 @@ from cqdd_design.design import Requirements
 from cqdd_design.design.tables import field_dimension
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.geometry.limits import rounded_down, rounded_up
+from cqdd_design.results import Check
 from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.infeasible import SizingInfeasibleError
-from cqdd_design.sizing.refusals import FIGURES, shares
+from cqdd_design.sizing.refusals import FIGURES
 from cqdd_design.sizing.verified import VerifiedDesign
 from cqdd_design.units import parse_quantity
 
@@ -79,8 +80,9 @@ def looser_figures(hunt: Hunt, refusal: SizingInfeasibleError, search: _Search) 
         return Looser({})
     hunt.say("looking for the figures that fit")
     too_much = {key: getattr(asked, key) for key in keys}
-    if too_much.keys() <= refusal.shares.keys():
-        nearest = {key: _told(key, refusal.shares[key] * most) for key, most in too_much.items()}
+    has = _shares(refusal.short)
+    if too_much.keys() <= has.keys():
+        nearest = {key: _told(key, has[key] * most) for key, most in too_much.items()}
         found, _ = search(asked.unchecked_copy(nearest))
         if found is not None:
             return _told_of(asked, _nearer(asked, nearest, found, too_much, search))
@@ -136,7 +138,16 @@ def _nearer(
 def _of(found: VerifiedDesign, stated: Figures) -> Figures:
     """What a design has of the figures that were asked of it, or as they were asked."""
     lines = [line for line in found.verdict.lines if FIGURES.get(line.id) in stated]
-    return stated | {key: _told(key, share * stated[key]) for key, share in shares(lines).items()}
+    return stated | {key: _told(key, share * stated[key]) for key, share in _shares(lines).items()}
+
+
+def _shares(lines: Iterable[Check]) -> Figures:
+    """Of every figure that is short: its value over what is asked, by the requirement's key."""
+    return {
+        FIGURES[line.id]: line.value / line.limit
+        for line in lines
+        if line.id in FIGURES and line.value and line.limit
+    }
 
 
 def _between(key: str, fits: float, has: float, too_much: float) -> float:

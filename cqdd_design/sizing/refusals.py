@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
 
@@ -246,14 +246,5 @@ def short_of(short: Sequence[Check], up_to: float = 0.0) -> SizingInfeasibleErro
         most_torque=most.get("MOTOR-PEAK"),
         most_lasting_torque=most.get("MOTOR-CONTINUOUS"),
         most_speed=up_to or None,
-        shares=shares(short),
+        short=tuple(short),
     )
-
-
-def shares(lines: Iterable[Check]) -> dict[str, float]:
-    """Of every figure that is short: its value over what is asked, by the requirement's key."""
-    return {
-        FIGURES[line.id]: line.value / line.limit
-        for line in lines
-        if line.id in FIGURES and line.value and line.limit
-    }
