@@ -80,9 +80,9 @@ def looser_figures(hunt: Hunt, refusal: SizingInfeasibleError, search: _Search) 
         return Looser({})
     hunt.say("looking for the figures that fit")
     too_much = {key: getattr(asked, key) for key in keys}
-    has = _shares(refusal.short)
-    if too_much.keys() <= has.keys():
-        nearest = {key: _told(key, has[key] * most) for key, most in too_much.items()}
+    shares = _shares(refusal.short)
+    if too_much.keys() <= shares.keys():
+        nearest = {key: _told(key, shares[key] * most) for key, most in too_much.items()}
         found, _ = search(asked.unchecked_copy(nearest))
         if found is not None:
             return _told_of(asked, _nearer(asked, nearest, found, too_much, search))
@@ -142,7 +142,7 @@ def _of(found: VerifiedDesign, stated: Figures) -> Figures:
 
 
 def _shares(lines: Iterable[Check]) -> Figures:
-    """Of every figure that is short: its value over what is asked, by the requirement's key."""
+    """Of every figure of some lines: its value over what is asked, by the requirement's key."""
     return {
         FIGURES[line.id]: line.value / line.limit
         for line in lines
