@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from types import MappingProxyType
 from typing import NamedTuple
 
 from cqdd_design.design import Requirements
 from cqdd_design.design.tables import field_dimension
 from cqdd_design.errors import InfeasibleError
+from cqdd_design.gearbox.checks.guide import CHECK_GUIDE
 from cqdd_design.geometry.limits import rounded_down, rounded_up
 from cqdd_design.results import Check
 from cqdd_design.sizing.hunt import Hunt
@@ -20,19 +20,8 @@ from cqdd_design.units import parse_quantity
 
 TRIES = 4
 """Searches for figures nearer to what is asked than those that fit."""
-_UNITS = MappingProxyType(
-    {
-        "mass": "kg",
-        "reflected_inertia": "kg*m^2",
-        "backlash": "arcmin",
-        "lost_motion": "arcmin",
-        "stiffness": "N*m/arcmin",
-        "surface_temperature": "degC",
-        "bore": "mm",
-    }
-)
-"""That figures are told in, as in their lines."""
-_AT_LEAST = frozenset({"stiffness", "efficiency", "bore"})
+_GUIDES = {key: CHECK_GUIDE[line] for line, key in FIGURES.items()}
+_AT_LEAST = {key for key, guide in _GUIDES.items() if guide.sense == "min"}
 _LOOSE = 100.0
 """Factor of a requirement that hardly binds."""
 _NEAR = 1.02
@@ -180,12 +169,12 @@ def _told(key: str, value: float) -> float:
 
 def _unit(key: str) -> float:
     dimension = field_dimension(Requirements.model_fields[key])
-    return 1.0 if dimension is None else parse_quantity(f"1 {_UNITS[key]}", dimension)
+    return 1.0 if dimension is None else parse_quantity(f"1 {_GUIDES[key].unit}", dimension)
 
 
 def in_words(figures: Figures) -> dict[str, str]:
     """Figures as a file has them."""
     return {
-        key: f"{value / _unit(key):.6g} {_UNITS.get(key, '')}".rstrip()
+        key: f"{value / _unit(key):.6g} {_GUIDES[key].unit}".rstrip()
         for key, value in figures.items()
     }
