@@ -24,6 +24,7 @@ function reachable() {
 window.addEventListener("load", function () {
   document.querySelectorAll(".table-wrapper td").forEach(function (cell) {
     cell.classList.toggle("words", cell.textContent.length > 60);
+    cell.classList.toggle("sentences", cell.textContent.length > 160);
   });
   reachable();
 });
