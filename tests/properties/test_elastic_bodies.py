@@ -32,6 +32,7 @@ from cqdd_design.gearbox.bodies.compliance import (
     ElasticBodies,
     compliance,
     disc_compliance,
+    rigid_cam_force,
     ring_compliance,
     under_disc,
 )
@@ -203,6 +204,19 @@ def test_the_bearings_ring_in_the_bore_gives_what_a_fine_mesh_of_both_does() -> 
     assert np.diag(ours) == pytest.approx(np.diag(other), rel=1.5e-2)
     without = np.diag(disc_body(bare(shape)).matrix)[loads]
     assert (without[:4] > 1.4 * np.diag(ours)[:4]).all()
+
+
+@pytest.mark.parametrize("torque", [34.2, -34.2, 0.0, -1e-6])
+def test_the_cams_rigid_force_of_any_torque_follows_from_that_of_its_sense(torque: float) -> None:
+    """It is kept by sense, and the other sense has other teeth under load."""
+    model, states = states_of_s()
+    found = rigid_cam_force(model, states, torque)
+    for disc in range(model.disc_count):
+        wanted = disc_forces(model, -torque, states.crank_angle, disc).cam_force
+        np.testing.assert_allclose(found[:, disc], wanted, rtol=1e-12, atol=1e-12 * abs(torque))
+    if torque:
+        other = rigid_cam_force(model, states, -torque)
+        assert np.abs(other + found).max() > 0.1 * np.abs(found).max()
 
 
 def test_matrices_are_reciprocal_and_so_are_the_two_ways_to_compute_them() -> None:

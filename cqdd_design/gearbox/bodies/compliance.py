@@ -13,6 +13,7 @@ none of.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
@@ -189,7 +190,16 @@ def without_gain(matrix: FloatArray, plain: FloatArray) -> FloatArray:
 
 
 def rigid_cam_force(model: ContactModel, states: NominalStates, torque: float) -> FloatArray:
-    """Force (A, D, 2) of the cam on every disc by the rigid law, N; torque on the carrier, N m."""
+    """Force (A, D, 2) of the cam on every disc by the rigid law, N; torque on the carrier, N m.
+
+    It is in proportion to the torque, but which teeth and pins bear it hangs on the sense.
+    """
+    return np.asarray(abs(torque) * _unit_cam_force(model, states, math.copysign(1.0, torque)))
+
+
+@lru_cache(maxsize=4)
+def _unit_cam_force(model: ContactModel, states: NominalStates, torque: float) -> FloatArray:
+    """By 1 N m of either sense: torques are tried by the dozen at the same angles."""
     # The rigid law's torque is that of the drive, which balances what the carrier is loaded with.
     discs = range(model.disc_count)
     found = [disc_forces(model, -torque, states.crank_angle, one).cam_force for one in discs]
