@@ -12,7 +12,7 @@ import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Requirements
@@ -47,6 +47,7 @@ step from one to the next."""
 _NEARLY = 0.9
 """Share of both torques below which nothing is looked for that bears all: it is told roughly."""
 _ROUNDING = 1e-6
+_Refusal = TypeVar("_Refusal", bound=InfeasibleError)
 _NO_SPACE = (
     "MOTOR-",
     "THERMAL-RISE",
@@ -126,7 +127,8 @@ def size_or_nearest(
     try:
         return searched(hunt, requirements)
     except SizingInfeasibleError as refusal:
-        raise _with_ways(refusal, replace(hunt, requirements=asked, goal=goal)) from refusal
+        began = replace(hunt, requirements=asked, goal=goal)
+        raise _with_ways(_without_frames(refusal), _without_designs(began)) from refusal
 
 
 def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleError:
@@ -142,7 +144,9 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
     stated = PEAK not in asked.derived and not asked.load_cases
     if stated or not less.hopeless or set(refusal.binding) & FIGURES.keys():
         # The ways out take minutes; whoever knows enough need not wait for them.
-        hunt.say(f"{refusal.message.rstrip('.')}.")
+        # And an estimate of what is carried need not stand above what they find.
+        told = refusal.message.replace(refusal.estimate, "") if stated else refusal.message
+        hunt.say(f"{told.rstrip('.')}.")
     if stated:
         hunt.say("looking for the torques that fit")
         less = _less_torque(hunt, refusal)
@@ -327,9 +331,21 @@ def _tried(hunt: Hunt, asked: Requirements) -> _Way:
     own = _new(hunt, asked)
     own.lowered = own.any_will_do = True
     try:
-        return _Way(own, searched(own, asked), None)
-    except InfeasibleError as refusal:
-        return _Way(own, None, refusal)
+        found, refusal = searched(own, asked), None
+    except InfeasibleError as error:
+        found, refusal = None, _without_frames(error)
+    return _Way(_without_designs(own), found, refusal)
+
+
+def _without_frames(refusal: _Refusal) -> _Refusal:
+    """A refusal without the frames of its search, which hold designs for as long as it is kept."""
+    refusal.__traceback__ = refusal.__context__ = refusal.__cause__ = None
+    return refusal
+
+
+def _without_designs(hunt: Hunt) -> Hunt:
+    """What a hunt has learnt, without the designs that it has come by: gigabytes at high ratios."""
+    return replace(hunt, solved=[], known={}, answered={}, rigid=None, calm=None)
 
 
 def _answer(

@@ -1,5 +1,7 @@
 """What a refusal says would fit: the road to it; deep, that it does and little less does not."""
 
+import gc
+import weakref
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -343,6 +345,31 @@ def test_the_speed_is_told_at_which_the_torque_is_held(monkeypatch, first, most,
     assert len(tried) == rounds
 
 
+def test_a_refusal_that_is_kept_holds_no_designs(monkeypatch):
+    """Its frames held machines for as long as other requirements were searched: gigabytes."""
+    kept = []
+
+    class Held:
+        """Something large in a frame of the search."""
+
+    def refused(hunt, asked):
+        large = Held()
+        kept.append(weakref.ref(large))
+        hunt.solved.append((large, ()))
+        try:
+            raise KeyError(large)
+        except KeyError as error:
+            raise SizingInfeasibleError("no.", binding=("YIELD",), most_torque=None) from error
+
+    monkeypatch.setattr(nearest, "searched", refused)
+    asked = requirements_from_mapping(ASKED)
+    hunt = new_hunt(asked, lambda _: None, None, None, "mass")
+    way = nearest._tried(hunt, asked)
+    gc.collect()
+    assert way.refusal.binding == ("YIELD",)
+    assert [one() for one in kept] == [None]
+
+
 @pytest.mark.parametrize(
     ("peak", "lasting", "told"), [(27.0, 5.0, False), (11.0, 5.0, True), (27.0, 1.5, True)]
 )
@@ -361,8 +388,10 @@ def test_an_estimate_that_a_search_overtakes_is_not_told_beside_it(
     monkeypatch.setattr(nearest, "_less_torque", lambda hunt, _: nearest._Way(hunt, fits, None))
     monkeypatch.setattr(nearest, "_more_again", lambda _, found, refusal: found)
     monkeypatch.setattr(nearest, "_limits", lambda _: iter(()))
-    hunt = new_hunt(requirements_from_mapping(ASKED), lambda _: None, None, None, "mass")
+    sentences: list[str] = []
+    hunt = new_hunt(requirements_from_mapping(ASKED), sentences.append, None, None, "mass")
     error = nearest._with_ways(short, hunt)
+    assert sentences[0] == "it does not fit. Ask for less."
     assert (estimate in error.message) == told
     assert error.message.startswith("it does not fit")
     assert f"peak_torque {peak:g} N*m with continuous_torque {lasting:g} N*m" in error.message
