@@ -311,8 +311,8 @@ def _verified(
 
 def _aside(hunt: Hunt) -> Hunt:
     """A hunt that knows as much, and teaches this one nothing."""
-    known = "solved", "known", "answered", "too_weak", "ends_bear"
-    return replace(hunt, **{name: copy(getattr(hunt, name)) for name in known})
+    changing = [name for name, one in vars(hunt).items() if isinstance(one, dict | list | set)]
+    return replace(hunt, **{name: copy(getattr(hunt, name)) for name in changing})
 
 
 def _result(hunt: Hunt, found: Found, began: float) -> SizingResult:

@@ -50,7 +50,7 @@ from cqdd_design.sizing.shafts import stronger_shaft
 from cqdd_design.sizing.spaces import FITS, MATERIALS, Found, Space, spaces
 from cqdd_design.sizing.stage_tables import stage_tables
 from cqdd_design.sizing.turns import cooler_gearbox, next_step, turned
-from cqdd_design.sizing.verified import searched, size_to_verdict
+from cqdd_design.sizing.verified import _aside, new_hunt, searched, size_to_verdict
 from cqdd_design.verdict import judge
 from cqdd_design.verdict.drawn import Allowed, drawn_gearboxes, used
 from cqdd_design.verdict.joint_lines import bell_line
@@ -768,3 +768,16 @@ def test_part_errors_ask_for_the_reserve_that_they_use_up() -> None:
     roomy_line = next(one for one in easy if one.id == "CONTACT-RING-PEAK")
     more = (roomy_line.margin / line.margin) ** 2
     assert yielding.extra_for(cam)["CONTACT-RING-PEAK"] == pytest.approx(more * found)
+
+
+def test_a_hunt_that_looks_aside_teaches_nothing():
+    """What a smaller ring was short of was taken for a design of the search: seed 42 crashed."""
+    asked = requirements_from_mapping({"ratio": 10, "peak_torque": "30 N*m"})
+    hunt = new_hunt(asked, lambda _: None, None, None, "mass")
+    aside = _aside(hunt)
+    aside.nearly["6902"] = 0.95
+    aside.ask_extra("6902", {"BEARING-STATIC": 1.3})
+    assert hunt.nearly == hunt.extra_of == {}
+    # What is usual is read and never written.
+    changing = {name for name, one in vars(hunt).items() if isinstance(one, (dict, list, set))}
+    assert {name for name in changing if getattr(aside, name) is getattr(hunt, name)} <= {"usual"}
