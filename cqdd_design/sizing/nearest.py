@@ -344,7 +344,7 @@ def _without_frames(refusal: _Refusal) -> _Refusal:
 
 
 def _without_designs(hunt: Hunt) -> Hunt:
-    """What a hunt has learnt, without the designs that it has come by: gigabytes at high ratios."""
+    """What a hunt has learnt, without the designs that it has come by, which are large."""
     return replace(hunt, solved=[], known={}, answered={}, rigid=None, calm=None)
 
 

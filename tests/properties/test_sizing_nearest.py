@@ -346,7 +346,7 @@ def test_the_speed_is_told_at_which_the_torque_is_held(monkeypatch, first, most,
 
 
 def test_a_refusal_that_is_kept_holds_no_designs(monkeypatch):
-    """Its frames held machines for as long as other requirements were searched: gigabytes."""
+    """Its frames held machines for as long as other requirements were searched."""
     kept = []
 
     class Held:
