@@ -21,7 +21,7 @@ from cqdd_design.design import load_design
 REPOSITORY = Path(__file__).resolve().parents[2]
 DOCS = REPOSITORY / "docs"
 TUTORIALS = ("first-gearbox", "gait-to-knee", "simulator", "edm-shop", "printed")
-READ = ("index", "theory", "gallery", "cli", "api", "tutorial-gait-to-knee", "faq")
+READ = ("index", "theory", "gallery", "cli", "api", "genindex", "tutorial-gait-to-knee", "faq")
 """Pages that are opened: one of every kind."""
 
 #: Furo takes its looks from the body, and the readers tell them to the root.
