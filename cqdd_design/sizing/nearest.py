@@ -12,7 +12,7 @@ import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple
 
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Requirements
@@ -47,7 +47,6 @@ step from one to the next."""
 _NEARLY = 0.9
 """Share of both torques below which nothing is looked for that bears all: it is told roughly."""
 _ROUNDING = 1e-6
-_Refusal = TypeVar("_Refusal", bound=InfeasibleError)
 _NO_SPACE = (
     "MOTOR-",
     "THERMAL-RISE",
@@ -127,8 +126,9 @@ def size_or_nearest(
     try:
         return searched(hunt, requirements)
     except SizingInfeasibleError as refusal:
+        _let_go(refusal)
         began = replace(hunt, requirements=asked, goal=goal)
-        raise _with_ways(_without_frames(refusal), _without_designs(began)) from refusal
+        raise _with_ways(refusal, _without_designs(began)) from refusal
 
 
 def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleError:
@@ -331,16 +331,16 @@ def _tried(hunt: Hunt, asked: Requirements) -> _Way:
     own = _new(hunt, asked)
     own.lowered = own.any_will_do = True
     try:
-        found, refusal = searched(own, asked), None
-    except InfeasibleError as error:
-        found, refusal = None, _without_frames(error)
-    return _Way(_without_designs(own), found, refusal)
+        found = searched(own, asked)
+    except InfeasibleError as refusal:
+        _let_go(refusal)
+        return _Way(_without_designs(own), None, refusal)
+    return _Way(_without_designs(own), found, None)
 
 
-def _without_frames(refusal: _Refusal) -> _Refusal:
-    """A refusal without the frames of its search, which hold designs for as long as it is kept."""
+def _let_go(refusal: InfeasibleError) -> None:
+    """Of the frames of its search, which hold designs for as long as a refusal is kept."""
     refusal.__traceback__ = refusal.__context__ = refusal.__cause__ = None
-    return refusal
 
 
 def _without_designs(hunt: Hunt) -> Hunt:

@@ -20,7 +20,6 @@ from cqdd_design.design import load_design
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 DOCS = REPOSITORY / "docs"
-TUTORIALS = ("first-gearbox", "gait-to-knee", "simulator", "edm-shop", "printed")
 READ = ("index", "theory", "gallery", "cli", "api", "genindex", "tutorial-gait-to-knee", "faq")
 """Pages that are opened: one of every kind."""
 
@@ -37,6 +36,10 @@ def _module(name: str, place: Path) -> ModuleType:
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
+
+
+#: The wheel alone is tried by the same: they build on each other.
+TUTORIALS = _module("package_tool", REPOSITORY / "tools" / "package.py").TUTORIALS
 
 
 @pytest.fixture(scope="module")

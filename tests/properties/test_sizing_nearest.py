@@ -11,6 +11,7 @@ from cqdd_design.design import requirements_from_mapping
 from cqdd_design.sizing import nearest, slower
 from cqdd_design.sizing.able import TooHotError
 from cqdd_design.sizing.infeasible import SizingInfeasibleError
+from cqdd_design.sizing.spaces import FITS
 from cqdd_design.sizing.verified import new_hunt, size_to_verdict
 
 ASKED = {
@@ -356,6 +357,7 @@ def test_a_refusal_that_is_kept_holds_no_designs(monkeypatch):
         large = Held()
         kept.append(weakref.ref(large))
         hunt.solved.append((large, ()))
+        hunt.fit = FITS[-1]
         try:
             raise KeyError(large)
         except KeyError as error:
@@ -368,6 +370,8 @@ def test_a_refusal_that_is_kept_holds_no_designs(monkeypatch):
     gc.collect()
     assert way.refusal.binding == ("YIELD",)
     assert [one() for one in kept] == [None]
+    # What was learnt is kept.
+    assert way.hunt.fit == FITS[-1]
 
 
 @pytest.mark.parametrize(
