@@ -284,11 +284,11 @@ def _sized(
             alone = size(asked, progress, motor=row, ambient=ambient, goal=goal)
             return _Sized(alone, None, frozenset())
         # The models of a verdict take as long to come as the screen alone to look.
-        from cqdd_design.sizing.nearest import size_or_nearest
+        from cqdd_design.sizing.no_nearer import size_or_refuse
         from cqdd_design.sizing.verified import size_to_verdict
 
         # Of many motors each refusal would take minutes.
-        way = size_to_verdict if any_motor else size_or_nearest
+        way = size_to_verdict if any_motor else size_or_refuse
         done = way(asked, progress, motor=row, ambient=ambient, goal=goal)
         return _Sized(done.sizing, done.verdict, done.derived)
 

@@ -71,8 +71,8 @@ class SizingInfeasibleError(InfeasibleError):
     most_lasting_torque : float or None
         Continuous torque that goes with it, N m.
     outer_diameter_needed : float or None
-        Smallest ring, in whole or half millimetres, that carries the torque asked for in the same
-        length, m; None where none does that goes into the motor's bore.
+        Smallest ring that was found to carry the torque asked for in the same length, m; None where
+        none does that goes into the motor's bore.
     length_needed : float or None
         Shortest pack, likewise, that carries it in the same ring, m.
     ratio_needed : int or None
@@ -132,7 +132,7 @@ class SizingInfeasibleError(InfeasibleError):
 
 
 def _in_mm(length: float | None) -> float | None:
-    return None if length is None else round(length * 1e3, 1)
+    return None if length is None else float(f"{1e3 * length:g}")
 
 
 def no_design(search: Search, *, nearest: bool = True) -> SizingInfeasibleError:

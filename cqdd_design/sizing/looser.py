@@ -164,10 +164,11 @@ def _eased(key: str, value: float, factor: float) -> float:
 def _told(key: str, value: float) -> float:
     """A figure rounded away from what is asked, in the unit that it is told in."""
     rounded = rounded_down if key in _AT_LEAST else rounded_up
-    return rounded(value / _unit(key)) * _unit(key)
+    return rounded(value / unit_of(key)) * unit_of(key)
 
 
-def _unit(key: str) -> float:
+def unit_of(key: str) -> float:
+    """The unit that a figure is told in, over that of its field."""
     dimension = field_dimension(Requirements.model_fields[key])
     return 1.0 if dimension is None else parse_quantity(f"1 {_GUIDES[key].unit}", dimension)
 
@@ -175,6 +176,6 @@ def _unit(key: str) -> float:
 def in_words(figures: Figures) -> dict[str, str]:
     """Figures as a file has them."""
     return {
-        key: f"{value / _unit(key):.6g} {_GUIDES[key].unit}".rstrip()
+        key: f"{value / unit_of(key):.6g} {_GUIDES[key].unit}".rstrip()
         for key, value in figures.items()
     }

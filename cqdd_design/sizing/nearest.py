@@ -2,8 +2,8 @@
 
 In each direction by itself. Torques are lowered as those are that nobody stated, and raised again
 while more fits. A larger ring or longer discs are looked for by the equilibrium, with the reserve
-that part errors were found to take; what is told has been searched to the verdict just as whoever
-asks for it would.
+that part errors were found to take. All is found by searches for any design, which end sooner than
+one for the best: see :mod:`cqdd_design.sizing.no_nearer` for what that leaves.
 """
 
 from __future__ import annotations
@@ -18,7 +18,6 @@ from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Requirements
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.gearbox.checks.guide import CHECK_GUIDE
-from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.geometry.scale import largest_ring
 from cqdd_design.sizing.able import CONTINUOUS, PEAK, TooHotError, first_guess
 from cqdd_design.sizing.bearable import LEAST, both_bearable, weaker
@@ -26,13 +25,15 @@ from cqdd_design.sizing.frame import Goal
 from cqdd_design.sizing.hunt import Hunt, Progress
 from cqdd_design.sizing.infeasible import WORDS, SizingInfeasibleError, listed
 from cqdd_design.sizing.kinds import ranked
-from cqdd_design.sizing.looser import in_words, looser_figures
+from cqdd_design.sizing.looser import looser_figures
 from cqdd_design.sizing.motor_reach import PEAK_LINE, MotorShortError
 from cqdd_design.sizing.ratios import other_ratio
 from cqdd_design.sizing.refusals import FIGURES
-from cqdd_design.sizing.slower import TOO_HOT, less_speed
+from cqdd_design.sizing.slower import less_speed
 from cqdd_design.sizing.stage_tables import stage_tables
+from cqdd_design.sizing.torque_steps import ALONE, between, short_alone, what_the_judged_has
 from cqdd_design.sizing.verified import VerifiedDesign, new_hunt, searched
+from cqdd_design.sizing.ways import Torques, Ways
 
 _MOST = 2.5
 """Of a length that is too small: so far a longer one, and a larger ring without a bore that limits
@@ -56,15 +57,10 @@ _NO_SPACE = (
     "PEAK-AT-SPEED",
 )
 """Beginnings of lines that no more space helps."""
-_DIGITS, _HELD = 2, 0.97
-"""Of torques that are told; share of what a motor was found to hold for ever that is tried."""
 _NO_LOADS = {"BACKLASH", "LOST-MOTION", "STIFFNESS", "SHOCK-STOP", "SURFACE-TEMPERATURE"}
 """Lines of which a search by loads alone does not know how much space they take."""
-_RISES, _NEAR = 4, 1.02
-"""Torques between one that fits and one that does not that are tried, and the factor between the
-two within which none is."""
-_ALONE = {PEAK: {"MOTOR-PEAK"}, CONTINUOUS: TOO_HOT}
-"""Lines that less of one torque alone helps."""
+_RISES = 4
+"""Torques between one that fits and one that does not that are tried."""
 
 
 @dataclass(frozen=True)
@@ -150,27 +146,19 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
     if stated:
         hunt.say("looking for the torques that fit")
         less = _less_torque(hunt, refusal)
-    ways, needed, still = [], {}, {}
-    most = lasting = ratio = None
+    space: dict[str, float] = {}
+    still: dict[str, tuple[str, ...]] = {}
+    torques = ratio = None
     if less.found is not None:
-        hunt.say(f"What fits at least: {_torques(less.found)}.")
+        hunt.say(f"What fits at least: {Torques.of(less.found).words}.")
         hunt.say("looking for more torque that still fits")
-        more = _more_again(hunt, less.found, refusal)
-        fits = more.sizing.design.requirements
-        most, lasting = fits.peak_torque, fits.continuous_torque
-        ways.append(_torques(more))
+        torques = Torques.of(_more_again(hunt, less.found, refusal))
     slower = less_speed(hunt, refusal, lambda own: _tried(hunt, own).found)
-    if slower is not None:
-        ways.append(f"continuous_speed {slower:g} rpm")
     looser = looser_figures(hunt, refusal, partial(_answer, hunt))
-    figures = in_words(looser.figures)
-    if figures:
-        ways.append(" with ".join(f"{key} {value}" for key, value in figures.items()))
-    elif looser.short:
+    if looser.short:
         still[f"any {listed([*looser.keys])}"] = looser.short
     if isinstance(refusal, MotorShortError):
         ratio, tried, short = other_ratio(hunt, refusal, partial(_at_ratio, hunt, asked))
-        ways += [] if ratio is None else [f"ratio {ratio}"]
         if short:
             still[f"ratio {tried}"] = short
     elif not less.hopeless:
@@ -179,43 +167,20 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
         for key, limit in _limits(hunt):
             hunt.say(f"looking for the least {key} that fits, up to {1e3 * limit:g} mm")
             need = _least(less.hunt, asked, key, limit, doubtful=doubtful)
-            needed[key] = need.length
-            ways += [] if need.length is None else [f"{key} {1e3 * need.length:g} mm"]
+            if need.length is not None:
+                space[key] = need.length
             if need.tried is not None and need.beyond_space:
                 still[f"{key} {1e3 * need.tried:g} mm"] = need.beyond_space
-    told = f"What fits, by the whole verdict: {', or '.join(ways)}." if ways else ""
-    if less.refusal not in (None, refusal) and (slower is not None or not ways):
-        told = f"{told} Less torque does not help: {_why(less.refusal)}.".lstrip()
-    elif not (ways or isinstance(refusal, MotorShortError) or less.hopeless):
-        told = "No larger ring and no longer discs were found that do, by the whole verdict."
+    ways = Ways(refusal, asked, torques, slower, looser.figures, ratio, space)
+    besides = ""
+    if less.refusal not in (None, refusal) and (slower is not None or not ways.words):
+        besides = f"Less torque does not help: {_why(less.refusal)}."
+    elif not (ways.words or isinstance(refusal, MotorShortError) or less.hopeless):
+        besides = "No larger ring and no longer discs were found that do, by the whole verdict."
     if still:
         words = _titles(line for lines in still.values() for line in lines)
-        told += f" With {' or '.join(still)} it is still short of {words}."
-    message = refusal.message.rstrip(".")
-    if most and lasting and refusal.most_torque:
-        # An estimate of both torques in proportion, which a search may overtake.
-        fit = min(most / asked.peak_torque, lasting / asked.continuous_torque)
-        if fit > refusal.most_torque / asked.peak_torque:
-            message = message.replace(refusal.estimate, "")
-    return SizingInfeasibleError(
-        f"{message}. {told}".rstrip(),
-        binding=refusal.binding,
-        most_torque=most,
-        most_lasting_torque=lasting,
-        outer_diameter_needed=needed.get("outer_diameter"),
-        length_needed=needed.get("length"),
-        ratio_needed=ratio,
-        most_speed=slower,
-        figures=figures,
-    )
-
-
-def _torques(found: VerifiedDesign) -> str:
-    fits = found.sizing.design.requirements
-    return (
-        f"peak_torque {fits.peak_torque:g} N*m with continuous_torque "
-        f"{fits.continuous_torque:g} N*m"
-    )
+        besides += f" With {' or '.join(still)} it is still short of {words}."
+    return replace(ways, besides=besides.strip()).told()
 
 
 def _at_ratio(hunt: Hunt, asked: Requirements, ratio: int) -> tuple[bool, tuple[str, ...]]:
@@ -237,11 +202,11 @@ def _less_torque(hunt: Hunt, refusal: SizingInfeasibleError) -> _Way:
             if way.found is not None:
                 break
         return way
-    for change in _what_the_judged_has(asked, refusal):
+    for change in what_the_judged_has(asked, refusal):
         way = _tried(hunt, asked.unchecked_copy(change))
         if way.found is not None:
             return way
-    for torque, lines in _ALONE.items():
+    for torque, lines in ALONE.items():
         if short <= lines:
             way = _tried(hunt, asked.deriving(torque))
             if way.found is not None:
@@ -265,7 +230,7 @@ def _more_again(
     held: set[str] = set()
     for _ in range(_RISES):
         fits = {key: getattr(found.sizing.design.requirements, key) for key in too_much}
-        steps = {key: _between(fits[key], most) for key, most in too_much.items()}
+        steps = {key: between(fits[key], most) for key, most in too_much.items()}
         raised = {key for key, torque in steps.items() if torque != fits[key]}
         if not raised:
             break
@@ -275,43 +240,11 @@ def _more_again(
         if way.found is not None:
             found = way.found
             continue
-        alone = _short_alone(way.refusal) & raised
+        alone = short_alone(way.refusal) & raised
         if raised - alone:
             held |= alone
         too_much |= {key: steps[key] for key in alone or raised}
     return found
-
-
-def _short_alone(refusal: InfeasibleError | None) -> set[str]:
-    """The torque of which less by itself would be enough, if there is one."""
-    if not isinstance(refusal, SizingInfeasibleError) or not refusal.binding:
-        return set()
-    return {torque for torque, lines in _ALONE.items() if set(refusal.binding) <= lines}
-
-
-def _between(fits: float, too_much: float) -> float:
-    """A torque between one that fits and one that is too much; the former where they are close."""
-    if too_much <= _NEAR * fits:
-        return fits
-    return max(rounded_down(math.sqrt(fits * too_much)), fits)
-
-
-def _what_the_judged_has(
-    asked: Requirements, refusal: SizingInfeasibleError
-) -> Iterator[dict[str, float]]:
-    """Torques that the motor was found to reach or hold in the design that was judged.
-
-    With any other gearbox it may do less.
-    """
-    most, lasting = refusal.most_torque, refusal.most_lasting_torque
-    if most is not None and set(refusal.binding) == {"MOTOR-PEAK"}:
-        peak = rounded_down(most, _DIGITS)
-        if asked.continuous_torque <= peak < asked.peak_torque:
-            yield {PEAK: peak}
-    if lasting is not None and set(refusal.binding) <= _ALONE[CONTINUOUS]:
-        held = rounded_down(_HELD * lasting, _DIGITS)
-        if held < asked.continuous_torque:
-            yield {CONTINUOUS: held}
 
 
 def _why(refusal: InfeasibleError) -> str:
@@ -396,12 +329,7 @@ def _least(hunt: Hunt, asked: Requirements, key: str, limit: float, *, doubtful:
     doubtful : bool
         Whether the most is tried first: it may not help either, or for less torque than is asked.
     """
-
-    def stating(length: float) -> Requirements:
-        changed = asked.unchecked_copy({key: length})
-        changed.model_fields_set.add(key)
-        return changed
-
+    stating = partial(with_length, asked, key)
     if doubtful and (most := _tried(hunt, stating(limit))).found is None:
         return _Need(None, limit, most.beyond_space)
     surely = limit if doubtful else None
@@ -431,6 +359,13 @@ def _least(hunt: Hunt, asked: Requirements, key: str, limit: float, *, doubtful:
         if low >= limit:
             break
     return _Need(surely)
+
+
+def with_length(asked: Requirements, key: str, length: float) -> Requirements:
+    """The requirements with another ring or length, m, which are then stated."""
+    changed = asked.unchecked_copy({key: length})
+    changed.model_fields_set.add(key)
+    return changed
 
 
 def _up(length: float) -> float:

@@ -21,7 +21,7 @@ _SHARES = (1.0, 0.9)
 _UP, _NEAR = 1.05, 1.02
 """Factor from a speed that fits to the next, and within which none is tried."""
 _DIGITS = 2
-_RPM = 30.0 / math.pi
+RPM = 30.0 / math.pi
 
 _Search = Callable[[Requirements], VerifiedDesign | None]
 
@@ -43,10 +43,10 @@ def less_speed(hunt: Hunt, refusal: SizingInfeasibleError, search: _Search) -> f
     if first is None or not set(refusal.binding) <= TOO_HOT:
         return None
     hunt.say("looking for the speed at which that fits")
-    too_much = _RPM * asked.held_speed
+    too_much = RPM * asked.held_speed
     for share in _SHARES:
         speed = rounded_down(share * first, _DIGITS)
-        found = search(_at(asked, speed))
+        found = search(at_speed(asked, speed))
         if found is not None:
             return _faster(asked, found, speed, too_much, search)
         too_much = speed
@@ -69,7 +69,7 @@ def _faster(
         actuator = found.verdict.evidence.actuator
         holds = 0.0 if actuator is None else held_up_to(actuator, asked)
         ahead = rounded_down(min(max(holds, _UP * speed), math.sqrt(speed * too_much)))
-        more = search(_at(asked, ahead)) if ahead > speed else None
+        more = search(at_speed(asked, ahead)) if ahead > speed else None
         if more is None:
             too_much = ahead
         else:
@@ -77,8 +77,8 @@ def _faster(
     return speed
 
 
-def _at(asked: Requirements, speed: float) -> Requirements:
+def at_speed(asked: Requirements, speed: float) -> Requirements:
     """The requirements with the continuous torque at an input speed, rpm."""
-    slower = asked.unchecked_copy({"continuous_speed": speed / _RPM})
+    slower = asked.unchecked_copy({"continuous_speed": speed / RPM})
     slower.model_fields_set.add("continuous_speed")
     return slower
