@@ -11,6 +11,7 @@ from cqdd_design.design import requirements_from_mapping
 from cqdd_design.sizing import nearest, slower
 from cqdd_design.sizing.able import TooHotError
 from cqdd_design.sizing.infeasible import SizingInfeasibleError
+from cqdd_design.sizing.no_nearer import size_or_refuse
 from cqdd_design.sizing.spaces import FITS
 from cqdd_design.sizing.verified import new_hunt, size_to_verdict
 
@@ -484,10 +485,10 @@ def test_a_ring_that_fills_the_bore_is_not_made_larger():
 @pytest.mark.deep
 def test_the_length_that_is_told_fits_and_little_less_does_not():
     with pytest.raises(SizingInfeasibleError) as caught:
-        nearest.size_or_nearest(requirements_from_mapping({**ASKED, "length": "8 mm"}))
+        size_or_refuse(requirements_from_mapping({**ASKED, "length": "8 mm"}))
     need = caught.value.length_needed
     assert need is not None
     fits = size_to_verdict(requirements_from_mapping({**ASKED, "length": f"{1e3 * need} mm"}))
     assert fits.verdict.meets == "yes"
     with pytest.raises(SizingInfeasibleError):
-        size_to_verdict(requirements_from_mapping({**ASKED, "length": f"{960.0 * need} mm"}))
+        size_to_verdict(requirements_from_mapping({**ASKED, "length": f"{980.0 * need} mm"}))
