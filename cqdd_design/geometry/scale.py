@@ -4,9 +4,37 @@ from __future__ import annotations
 
 _REFERENCE_RING = 72e-3
 _SCALE_RANGE = (0.4, 4.0)
-_DIGITS = 9
+_DIGITS, _DRAWN_DIGITS = 9, 5
 MOST_TUBE_WALL = 12.0
 """Thickest tube, in units, that is filled up to the bore of a stator."""
+
+
+class Unit(float):
+    """A millimetre at the scale of a machine, m; so many of it are a length that a shop is given.
+
+    Examples
+    --------
+    >>> unit = Unit(0.77e-3)
+    >>> print(3.2 * unit, 1.0 * unit)
+    0.00246 0.00077
+    """
+
+    def __mul__(self, count: float, /) -> float:
+        """So many of it, as drawn."""
+        return as_drawn(float(self) * count)
+
+    __rmul__ = __mul__
+
+
+def as_drawn(length: float) -> float:
+    """A length that nothing else fixes in whole hundredths of a millimetre, m: as sheets tell it.
+
+    Examples
+    --------
+    >>> as_drawn(38.5417e-3)
+    0.03854
+    """
+    return round(length, _DRAWN_DIGITS)
 
 
 def millimetre_unit(ring_outer_diameter: float) -> float:

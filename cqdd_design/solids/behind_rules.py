@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING
 
 from cqdd_design.catalog.materials import Material
 from cqdd_design.catalog.motors import Motor
-from cqdd_design.geometry.scale import millimetre_unit
+from cqdd_design.geometry.scale import Unit, millimetre_unit
 from cqdd_design.solids.encoder_rules import lay_out_encoder
 from cqdd_design.solids.motor_layout import MotorLayout
 from cqdd_design.solids.motor_rules import hub_length, lay_out_motor
@@ -40,9 +40,9 @@ _LEADS = 1.6
 """Radius of the hole of the phase leads, units."""
 
 
-def _scale(motor: Motor, unit: float) -> float:
+def _scale(motor: Motor, unit: float) -> Unit:
     """A millimetre at the scale of the larger of machine and motor, m."""
-    return max(unit, millimetre_unit(motor.bore_diameter or 0.0))
+    return Unit(max(unit, millimetre_unit(motor.bore_diameter or 0.0)))
 
 
 def misfit(motor: Motor, support: ChosenBearing, unit: float) -> str:
@@ -116,7 +116,7 @@ def lay_out_behind(
         flange=flange,
         flange_top=housing.bottom + flange,
         spigot=min(spigot_depth(scale), 0.8 * scale),
-        spigot_inner=inner - scale,
+        spigot_inner=inner - 1.0 * scale,
         ear_radius=0.5 * head + 0.8 * scale,
         ear_circle=outside + 0.5 * head + 0.3 * scale,
         ear_height=grip,
@@ -124,6 +124,6 @@ def lay_out_behind(
         cover_grip=grip,
         cover_engaged=flange,
         cable_radius=leads,
-        cable_circle=inner - scale - 0.5 * scale - leads,
+        cable_circle=inner - 1.5 * scale - leads,
         neck_inner=around.stack_inner - _NECK_WALL * scale,
     )

@@ -9,6 +9,7 @@ from cqdd_design.design import Design
 from cqdd_design.design.reducer import Reducer
 from cqdd_design.errors import GeometryError
 from cqdd_design.geometry.columns import column_offsets, has_columns
+from cqdd_design.geometry.scale import as_drawn
 from cqdd_design.solids.dowel_rules import flange_dowels
 from cqdd_design.solids.layout import CarrierLayout, ColumnLayout, PackLayout
 from cqdd_design.solids.registers import NUT_SLOTS, spigot_depth
@@ -33,7 +34,7 @@ CLAMPED_SEAT = 1.0
 
 def pin_wall(diameter: float, unit: float) -> float:
     """Material of the cap around a pin or its counterbore, m."""
-    return max(unit, 0.375 * diameter)
+    return as_drawn(max(unit, 0.375 * diameter))
 
 
 def counterbore_radius(pin: OutputPin) -> float:
@@ -133,7 +134,7 @@ def lay_out_carrier(
     shaft_seat_top = bottom + support.bearing.width + shims.room
     nut_top = bearing_top + max(3.0 * unit, 0.05 * output.bearing.bore_diameter)
     plate_top = max(
-        nut_top + unit,
+        nut_top + 1.0 * unit,
         bottom + register + pin.thread_length + 0.5 * unit,
         (columns.thread_top if columns else bottom) + 0.5 * unit,
         shaft_seat_top + 1.5 * unit,
@@ -148,7 +149,7 @@ def lay_out_carrier(
     # Beside the shaft's bearing where a wall stays, else above it.
     beside_seat = 0.5 * (room - bolt) >= 0.8 * unit
     bolt_room = plate_top - (bottom if beside_seat else shaft_seat_top)
-    depth = bolt_room - (unit if beside_seat else 0.5 * unit)
+    depth = bolt_room - (1.0 if beside_seat else 0.5) * unit
     return CarrierLayout(
         joint=joint,
         columns=columns,
@@ -205,7 +206,7 @@ def _lay_out_columns(
     diameter = reducer.carrier.column_diameter
     size = column_screw(diameter)
     deep = cap_screw(size.thread, 0.0).counterbore[1]
-    under_head = max(unit, 0.8 * size.thread)
+    under_head = max(1.0 * unit, 0.8 * size.thread)
     seat = min(cap_bottom + deep, -pack.gap - under_head)
     grip = pack.top + pack.gap - seat
     return ColumnLayout(
@@ -231,7 +232,7 @@ def _seat_depths(
     if pin.screw is None:
         web = max(2.5 * unit, 0.75 * diameter, seat) if both else 0.0
         return pin.shoulder_length(span + web + 1.5 * diameter) - span - web, web
-    least_register = max(unit, 0.25 * diameter)
+    least_register = max(1.0 * unit, 0.25 * diameter)
     least_web = max(1.5 * unit, 0.5 * diameter, seat) if both else 0.0
     spare = pin.shoulder_length(span + least_register + least_web) - span
     if both:

@@ -20,6 +20,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from cqdd_design.catalog.motors import Motor
+from cqdd_design.geometry.scale import as_drawn
 from cqdd_design.solids.encoder_rules import lay_out_encoder
 from cqdd_design.solids.motor_layout import InrunnerLayout
 from cqdd_design.solids.motor_rules import AIR_GAP, hub_length
@@ -93,7 +94,7 @@ def lay_out_inrunner(
     stack_top = joint - spigot - 0.3 * unit - max(coil, 0.5 * (ring - stack) + 0.3 * unit)
     stack_bottom, ring_top = stack_top - stack, stack_top + 0.5 * (ring - stack)
     ring_bottom = ring_top - ring
-    lip_bottom = ring_bottom - unit
+    lip_bottom = ring_bottom - 1.0 * unit
 
     journal, hub_top = 0.5 * support.bearing.bore_diameter, joint - 0.8 * unit
     hub_bottom = min(lip_bottom, hub_top - hub_length(torque, 2.0 * journal))
@@ -107,7 +108,7 @@ def lay_out_inrunner(
     screw = cap_screw(thread, grip + 1.2 * thread)
     # Stiff enough to hold the stator out on it.
     flange = min(max(screw.length - grip, 2.5 * unit), housing.flange_bottom - joint)
-    floor = min(stack_bottom - coil - 0.8 * unit, lip_bottom - unit)
+    floor = min(stack_bottom - coil - 0.8 * unit, lip_bottom - 1.0 * unit)
     encoder = lay_out_encoder(journal, hub_bottom - 0.5 * unit, hollow)
     # The shaft reaches as far as its encoder, whose board lies in a dish below the floor.
     short = encoder.board_bottom - (floor - wall)
@@ -118,7 +119,7 @@ def lay_out_inrunner(
     if short > 0.0:
         hub_bottom -= short
         encoder = lay_out_encoder(journal, hub_bottom - 0.5 * unit, hollow)
-    dish = max(encoder.board_radius, hub) + unit + wall
+    dish = max(encoder.board_radius, hub) + 1.0 * unit + wall
     ledge = round(0.5 * (coil_outer + stack_outer), 4)
     room = ledge - dish
     return InrunnerLayout(
@@ -140,7 +141,7 @@ def lay_out_inrunner(
         cover_floor=floor,
         cover_wall=wall,
         spigot=spigot,
-        spigot_inner=stack_outer - unit,
+        spigot_inner=stack_outer - 1.0 * unit,
         ear_count=6,
         ear_radius=0.5 * head + 0.8 * unit,
         # Heads beside the cover's wall, threads beside the tube.
@@ -161,8 +162,8 @@ def lay_out_inrunner(
         # A hub that comes near the rotor is in one piece with its sleeve.
         sleeve_inner=sleeve if sleeve > hub + 0.5 * unit else hub,
         lip_bottom=lip_bottom,
-        lip_radius=rotor_inner + min(unit, 0.4 * (rotor_outer - rotor_inner)),
+        lip_radius=rotor_inner + min(1.0 * unit, 0.4 * (rotor_outer - rotor_inner)),
         web_top=min(lip_bottom + 2.5 * unit, ring_top),
-        cable_radius=min(0.3 * room, 3.0 * unit) if room > 3.0 * unit else 0.0,
+        cable_radius=as_drawn(min(0.3 * room, 3.0 * unit)) if room > 3.0 * unit else 0.0,
         cable_circle=round(dish + 0.5 * room, 4),
     )

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from cqdd_design.catalog.adhesives import ROTOR_COMPOUND, SAFETY, length_needed
 from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.catalog.motors import Motor
-from cqdd_design.geometry.scale import MOST_TUBE_WALL
+from cqdd_design.geometry.scale import MOST_TUBE_WALL, as_drawn
 from cqdd_design.solids.encoder_rules import lay_out_encoder
 from cqdd_design.solids.motor_layout import MotorLayout
 from cqdd_design.solids.registers import spigot_depth
@@ -152,7 +152,7 @@ def motor_place(motor: Motor, pack: PackLayout, unit: float) -> MotorPlace:
         return MotorPlace(own, None, False, missing)
     inside = 0.5 * (drawn.bore_diameter or 0.0)
     wall = inside - pack.ring_radius
-    if unit * (1.0 - 1e-9) <= wall <= MOST_TUBE_WALL * unit:
+    if float(unit) * (1.0 - 1e-9) <= wall <= MOST_TUBE_WALL * float(unit):
         return MotorPlace(inside, drawn, False, "")
     return MotorPlace(own, drawn, True, "")
 
@@ -235,11 +235,13 @@ def lay_out_motor(
     rotor_outer = bell - min(1.2 * unit, 0.5 * (bell - rotor_inner))
     coil = _COIL_SHARE * depth
     room = 2.0 * unit if weights else 0.0
-    stack_top = housing.flange_bottom - 0.5 * unit - max(coil, 0.5 * (ring - stack) + unit + room)
+    stack_top = (
+        housing.flange_bottom - 0.5 * unit - max(coil, 0.5 * (ring - stack) + 1.0 * unit + room)
+    )
     stack_bottom = stack_top - stack
     ring_top = stack_top + 0.5 * (ring - stack)
     web_top = min(
-        stack_bottom - coil - 0.8 * unit, ring_top - ring - unit, housing.bottom - 0.8 * unit
+        stack_bottom - coil - 0.8 * unit, ring_top - ring - 1.0 * unit, housing.bottom - 0.8 * unit
     )
     journal = 0.5 * support.bearing.bore_diameter
     hub, middle = journal + 3.5 * unit, ring_top - 0.5 * ring
@@ -250,7 +252,7 @@ def lay_out_motor(
     hub_bottom = min(web_bottom, hub_top - hub_length(torque, 2.0 * journal))
     encoder = lay_out_encoder(journal, hub_bottom - 0.5 * unit, hollow)
 
-    inner = bell + unit
+    inner = bell + 1.0 * unit
     wall = 1.6 * unit
     thread = thread_size(3.0 * unit)
     clearance = 0.55 * thread
@@ -260,10 +262,11 @@ def lay_out_motor(
     flange = min(3.0 * unit, pack.top - housing.flange_bottom)
     # Over the bell, whose ring ends a unit and a half below the flange.
     spigot = min(spigot_depth(unit), 0.8 * unit)
-    spigot_inner = inner - unit
+    spigot_inner = inner - 1.0 * unit
     if housing.flange_radius > spigot_inner:
         spigot = 0.0
     cable_room = inner - 0.5 * unit - housing.flange_radius - 0.5 * unit
+    leads = as_drawn(min(0.3 * cable_room, 4.0 * unit))
     return MotorLayout(
         stack_inner=0.5 * (motor.bore_diameter or 0.0),
         stack_outer=stack_outer,
@@ -285,7 +288,7 @@ def lay_out_motor(
         **vars(encoder),
         cover_inner=inner,
         cover_outer=inner + wall,
-        cover_floor=web_bottom - unit - room,
+        cover_floor=web_bottom - 1.0 * unit - room,
         cover_wall=wall,
         joint=housing.flange_bottom,
         body=inner + wall,
@@ -300,6 +303,6 @@ def lay_out_motor(
         cover_screw=cap_screw(thread, flange + 1.2 * thread),
         cover_grip=flange,
         cover_engaged=ear_height,
-        cable_radius=min(0.3 * cable_room, 4.0 * unit) if cable_room > 3.0 * unit else 0.0,
-        cable_circle=housing.flange_radius + 0.5 * unit + 0.35 * cable_room,
+        cable_radius=leads if cable_room > 3.0 * unit else 0.0,
+        cable_circle=as_drawn(housing.flange_radius + 0.5 * unit + 0.35 * cable_room),
     )

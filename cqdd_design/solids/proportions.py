@@ -12,7 +12,7 @@ from cqdd_design.errors import GeometryError
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.geometry.ring import ring_root_radius
 from cqdd_design.geometry.runners import pin_runner, ring_runner
-from cqdd_design.geometry.scale import millimetre_unit
+from cqdd_design.geometry.scale import Unit, as_drawn, millimetre_unit
 from cqdd_design.geometry.validate import validate_geometry
 from cqdd_design.solids import behind_rules
 from cqdd_design.solids.carrier_rules import (
@@ -78,7 +78,7 @@ def lay_out(design: Design, cam_bearing: Bearing, motor: Motor) -> Layout:
     pin = output_pin(design.reducer.output_pins.diameter)
     pin_runner(design)
     validate_geometry(design, bore_diameter=cam_bearing.outer_diameter)
-    unit = millimetre_unit(design.reducer.ring.outer_diameter)
+    unit = _unit(design)
     pack = _pack(design, cam_bearing, unit)
     _refuse_wide_cam(design, cam_bearing)
     _refuse_no_shaft(pack)
@@ -133,7 +133,7 @@ def seat_bearings(design: Design, cam_bearing: Bearing) -> tuple[ChosenBearing, 
     GeometryError
         When the disc cannot exist.
     """
-    unit = millimetre_unit(design.reducer.ring.outer_diameter)
+    unit = _unit(design)
     pack = _pack(design, cam_bearing, unit)
     core = max(_core_radius(pack), _least_core(pack))
     return _seats(design, pack, output_pin(design.reducer.output_pins.diameter), core, unit)
@@ -147,9 +147,13 @@ def carrier_bearings(design: Design, cam_bearing: Bearing) -> tuple[ChosenBearin
     GeometryError
         When the disc cannot exist.
     """
-    unit = millimetre_unit(design.reducer.ring.outer_diameter)
+    unit = _unit(design)
     room = _carrier_room(design, _pack(design, cam_bearing, unit), unit)
     return fitting_output_bearings(room)
+
+
+def _unit(design: Design) -> Unit:
+    return Unit(millimetre_unit(design.reducer.ring.outer_diameter))
 
 
 def _seats(
@@ -191,12 +195,12 @@ def _pack(design: Design, cam_bearing: Bearing, unit: float) -> PackLayout:
         # The ring is clamped outside the rollers' pockets, and the pins span what they bend over.
         seat, held = ring_root_radius(design), _held_pins(design, unit)
         relief = reducer.disc_spacing or relief
-    ledge = min(seat + 0.15 * unit, 0.5 * (seat + ring_radius))
+    ledge = as_drawn(min(seat + 0.15 * unit, 0.5 * (seat + ring_radius)))
     # On three quarters of the ring's wall, and on pins that stand in its pockets.
-    clamp = ring_radius - 0.25 * (ring_radius - ledge)
+    clamp = as_drawn(ring_radius - 0.25 * (ring_radius - ledge))
     inner = ledge
     if held is not None:
-        wall = max(unit, 0.25 * held.diameter)
+        wall = max(1.0 * unit, 0.25 * held.diameter)
         inner = clamp = held.circle_radius - 0.5 * held.diameter - wall
     elif reducer.ring_type == "pinwheel":
         clamp = min(clamp, reducer.ring_pitch_radius + 0.25 * reducer.ring_pin_diameter)
@@ -300,9 +304,9 @@ def _housing(
     screw = cap_screw(thread, grip + 1.3 * thread)
     flange_bottom = pack.top - max(screw.length - grip, 1.3 * thread) - 0.5 * unit
     bolt_circle = max(
-        place.tube + 0.5 * thread + unit,
+        place.tube + 0.5 * thread + 1.0 * unit,
         hub + 0.5 * head + 0.4 * unit,
-        pack.ring_radius + 0.5 * thread + unit,
+        pack.ring_radius + 0.5 * thread + 1.0 * unit,
     )
     mount = mounting_thread(
         design.requirements,
@@ -314,7 +318,7 @@ def _housing(
     )
     # Larger ones leave a wall and the ring's dowels room.
     bolt_circle = max(bolt_circle, pack.ring_radius + 0.55 * mount + 1.85 * unit)
-    rim = max(0.5 * head + unit, 0.55 * mount + unit)
+    rim = max(0.5 * head, 0.55 * mount) + 1.0 * unit
 
     pin_heads = carrier.pin_circle_radius - 0.5 * max(
         carrier.pin.head_diameter, carrier.pin.nominal_diameter
