@@ -191,7 +191,7 @@ def _most_holes(hub: float, rim: float, unit: float) -> WebHoles:
     """The largest lightening holes that go into a bell's web, none where they save nothing."""
     room = rim - 2.0 * unit - hub - 1.5 * unit
     middle = hub + 1.5 * unit + 0.5 * room
-    hole = min(0.5 * room, middle * math.sin(math.pi / _LIGHTENING) - 1.5 * unit)
+    hole = as_drawn(min(0.5 * room, middle * math.sin(math.pi / _LIGHTENING) - 1.5 * unit))
     return WebHoles(_LIGHTENING, middle, hole) if hole > unit else NO_HOLES
 
 
