@@ -31,7 +31,13 @@ from cqdd_design.sizing.ratios import other_ratio
 from cqdd_design.sizing.refusals import FIGURES
 from cqdd_design.sizing.slower import less_speed
 from cqdd_design.sizing.stage_tables import stage_tables
-from cqdd_design.sizing.torque_steps import ALONE, between, short_alone, what_the_judged_has
+from cqdd_design.sizing.torque_steps import (
+    ALONE,
+    between,
+    share_borne,
+    short_alone,
+    what_the_judged_has,
+)
 from cqdd_design.sizing.verified import VerifiedDesign, new_hunt, searched
 from cqdd_design.sizing.ways import Torques, Ways
 
@@ -220,8 +226,9 @@ def _more_again(
     """A design for more than torques that were found to fit, by a few searches between.
 
     Torques that are lowered go down in strides, and a design that just fails is eased on and on;
-    another may bear what lies between. What is told is no bound: close to it a search finds some
-    torques and not others.
+    another may bear what lies between. Where a search that fails says about what is borne, no more
+    than that is tried. What is told is no bound: close to it a search finds some torques and not
+    others.
     """
     asked = hunt.requirements
     too_much = {key: getattr(asked, key) for key in (PEAK, CONTINUOUS) if key not in asked.derived}
@@ -236,14 +243,16 @@ def _more_again(
             break
         # What the motor itself falls short of does not keep the other torque down.
         raised -= held if raised - held else set()
-        way = _tried(hunt, asked.unchecked_copy(fits | {key: steps[key] for key in raised}))
+        more = asked.unchecked_copy(fits | {key: steps[key] for key in raised})
+        way = _tried(hunt, more)
         if way.found is not None:
             found = way.found
             continue
         alone = short_alone(way.refusal) & raised
         if raised - alone:
             held |= alone
-        too_much |= {key: steps[key] for key in alone or raised}
+        share = share_borne(way.refusal, more)
+        too_much |= {key: max(share * steps[key], fits[key]) for key in alone or raised}
     return found
 
 

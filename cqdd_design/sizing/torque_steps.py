@@ -27,6 +27,13 @@ def short_alone(refusal: InfeasibleError | None) -> set[str]:
     return {torque for torque, lines in ALONE.items() if set(refusal.binding) <= lines}
 
 
+def share_borne(refusal: InfeasibleError | None, tried: Requirements) -> float:
+    """About what share of torques that were tried is borne, by a refusal's estimate; else 1."""
+    if not isinstance(refusal, SizingInfeasibleError) or not refusal.estimate:
+        return 1.0
+    return (refusal.most_torque or tried.peak_torque) / tried.peak_torque
+
+
 def between(fits: float, too_much: float) -> float:
     """A torque between one that fits and one that is too much; the former where they are close."""
     if too_much <= _NEAR * fits:

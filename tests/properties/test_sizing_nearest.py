@@ -294,6 +294,38 @@ def test_torques_that_are_told_are_nearly_the_most(monkeypatch, bears, holds):
     assert {lasting for _, lasting in tried} == {free.requirements.continuous_torque}
 
 
+def test_what_a_failed_search_says_is_borne_saves_searches_for_more(monkeypatch):
+    """100 N m at ratio 10: 72.1 fails and says 61, 61.2 fails after a minute and says 58."""
+    tried = []
+
+    def way(hunt, own):
+        tried.append(own.peak_torque)
+        if own.peak_torque <= 57.0:
+            return nearest._Way(
+                hunt, found(peak_torque=own.peak_torque, continuous_torque=6.0), None
+            )
+        about = 57.0 + 0.2 * (own.peak_torque - 57.0)
+        estimate = f"; no more than about {about:g} N*m are carried"
+        short = SizingInfeasibleError(
+            f"no{estimate}.", binding=("YIELD",), most_torque=about, estimate=estimate
+        )
+        return nearest._Way(hunt, None, short)
+
+    monkeypatch.setattr(nearest, "_tried", way)
+    asked = requirements_from_mapping({**ASKED, "peak_torque": "100 N*m"})
+    hunt = new_hunt(asked, lambda _: None, None, None, "mass")
+    low = found(peak_torque=52.0, continuous_torque=6.0)
+    most = nearest._more_again(hunt, low, refused("YIELD")).sizing.design.requirements
+    assert tried[0] == pytest.approx(72.1)
+    assert max(tried[1:]) < 61.0
+    assert most.peak_torque > 55.0
+    # What it says is less than what fits: nothing more is tried.
+    tried.clear()
+    low = found(peak_torque=70.0, continuous_torque=6.0)
+    nearest._more_again(hunt, low, refused("YIELD"))
+    assert len(tried) == 1
+
+
 def found_at(speed, holds):
     verdict = SimpleNamespace(evidence=SimpleNamespace(actuator=holds))
     return SimpleNamespace(verdict=verdict, speed=speed)
