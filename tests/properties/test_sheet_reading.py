@@ -19,12 +19,14 @@ from cqdd_design.exporting.sheets.canvas import render
 from cqdd_design.exporting.sheets.cut_sheet import (
     MOST_REACH,
     SECTION,
+    draw_cut_sheet,
     draw_sheet,
     sheet_scale,
 )
 from cqdd_design.exporting.sheets.drawing import SheetDrawing
 from cqdd_design.exporting.sheets.edm_readme import readme_text
 from cqdd_design.exporting.sheets.end_plan import _round_row, drilled_size
+from cqdd_design.exporting.sheets.frame import cut_rows
 from cqdd_design.exporting.sheets.part_facts import PartFacts
 from cqdd_design.exporting.sheets.part_sheet import _fixed, draw_part
 from cqdd_design.exporting.sheets.section_plan import section_directions
@@ -154,6 +156,30 @@ def test_no_line_runs_under_the_thickness_or_through_a_datum(three):
                 assert not len(crossed(label, ends)), (flat.label, label.text)
             (thick,) = (label for label in canvas.labels if label.text.endswith(" +0/-0.02"))
             assert not len(crossed(replace(thick, y=thick.y - 0.6), ends)), flat.label
+
+
+@pytest.mark.parametrize(("pins", "paper"), [(28, "A3"), (29, "A2"), (60, "A2")])
+def test_the_table_of_cuts_is_complete(pins, paper):
+    """Of more than 30 cuts it said "n more: see the DXF"."""
+    base = load_design(ROOT / "designs" / "cqdd-10.toml").replacing(NARROW)
+    pin = {"reducer.output_pins.count": pins, "reducer.output_pins.diameter": "1.2 mm"}
+    machine = resolve(base.replacing(pin))
+    flat = flat_parts(machine)[0]
+    sheet = draw_cut_sheet(facts_of(flat, machine))
+    canvas = render(sheet)
+    assert_legible(canvas)
+    assert sheet.paper.name == paper
+    assert [row[0] for row in cut_rows(facts_of(flat, machine))] == [
+        str(one) for one in range(1, pins + 3)
+    ]
+    # Every hole by its place, to 0.1 um, in the order of its cut.
+    texts = [label.text for label in canvas.labels]
+    start = texts.index("cut")
+    for number, hole in enumerate(flat.shape.holes, start=1):
+        row = texts.index(str(number), start)
+        assert texts[row + 3 : row + 5] == [f"{1e3 * one:.4f}" for one in hole.centre], number
+        start = row + 1
+    assert "see the DXF" not in " ".join(texts)
 
 
 def test_the_section_of_a_flat_part_says_which_way_it_is_seen(three, monkeypatch):

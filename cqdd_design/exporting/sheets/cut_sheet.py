@@ -1,4 +1,4 @@
-"""The cut sheet: one A3 page a part, from which a shop can quote and cut.
+"""The cut sheet: one page a part, from which a shop can quote and cut; A3 for up to 30 cuts.
 
 ::
 
@@ -30,7 +30,7 @@ from cqdd_design.exporting.edm.wire_path import segmented
 from cqdd_design.exporting.sheets.blocks import Row, Words
 from cqdd_design.exporting.sheets.canvas import Canvas, render
 from cqdd_design.exporting.sheets.drawing import AXIS, OUTLINE, SMALL, TEXT, SheetDrawing, new_sheet
-from cqdd_design.exporting.sheets.frame import draw_frame
+from cqdd_design.exporting.sheets.frame import draw_frame, paper_for
 from cqdd_design.exporting.sheets.lettering import text_width
 from cqdd_design.exporting.sheets.sizes import clear_stem
 from cqdd_design.exporting.sheets.title_block import SCALES
@@ -59,7 +59,7 @@ def draw_sheet(facts: CutFacts) -> Canvas:
 
 def draw_cut_sheet(facts: CutFacts) -> SheetDrawing:
     """Draw the sheet of a part."""
-    sheet = new_sheet(sheet_scale(facts))
+    sheet = new_sheet(sheet_scale(facts), paper_for(facts))
     _front_view(sheet, facts)
     _section(sheet, facts)
     draw_frame(sheet, facts)

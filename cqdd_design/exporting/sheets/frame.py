@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from cqdd_design.exporting.edm.cut_facts import CUT_FINISH
 from cqdd_design.exporting.edm.wire_path import contour_name, contour_size
 from cqdd_design.exporting.sheets.drawing import SMALL, SheetDrawing
-from cqdd_design.exporting.sheets.formats import LEFT
+from cqdd_design.exporting.sheets.formats import A3, LEFT, PAPERS, Paper
 from cqdd_design.exporting.sheets.title_block import (
     INNER_EDGE,
     OUTER_EDGE,
@@ -27,9 +27,13 @@ if TYPE_CHECKING:
 _MM = 1e3
 _NOTES = complex(308.0, 280.0)
 _NOTE_WIDTH = 99.0
+_ROWS = 4
+"""Of the title block."""
 _TABLE = complex(LEFT + 4.0, 78.0)
 _GAP = 2.0
-"""Between the halves of a long table, mm."""
+"""Between the blocks of a long table, mm."""
+_BESIDE, _HEAD = 411.0, 12.0
+"""Where blocks begin on larger paper, right of what stands on A3, and below the border, mm."""
 
 
 class _Table(NamedTuple):
@@ -64,12 +68,33 @@ _LONG = _Table(
 )
 
 
+def paper_for(facts: CutFacts) -> Paper:
+    """The smallest paper on which the table of cuts is complete."""
+    count = 0 if facts.moulded else len(facts.flat.cut_order)
+    return next((one for one in PAPERS if count <= _room(one)), PAPERS[-1])
+
+
+def _room(paper: Paper) -> int:
+    """Rows of cuts that a paper has room for."""
+    table = _table(paper, _LONG.most + 1)
+    return table.blocks * table.most
+
+
+def _table(paper: Paper, count: int) -> _Table:
+    """How so many rows are drawn on a paper: on a larger one in blocks beside all else."""
+    if paper == A3:
+        return _SHORT if count <= _SHORT.most else _LONG
+    blocks = int((paper.right - _BESIDE + _GAP) // (_LONG.width + _GAP))
+    most = int((paper.top - _HEAD - title_top(_ROWS) - _GAP) // _LONG.pitch) - 1
+    return _LONG._replace(blocks=blocks, most=most)
+
+
 def draw_frame(sheet: SheetDrawing, facts: CutFacts) -> None:
     """Draw everything on a sheet but the views."""
     draw_border(sheet)
     _title_block(sheet, facts)
     # All must stay above the title block.
-    room = _NOTES.imag - title_top(4) - 6.0
+    room = _NOTES.imag - title_top(_ROWS) - 6.0
     draw_notes(sheet, _NOTES, notes(facts), width=_NOTE_WIDTH, height=room + 5.5)
     if not facts.moulded:
         _cuts(sheet, facts)
@@ -203,13 +228,15 @@ def _curve(facts: CutFacts) -> str:
 
 
 def _cuts(sheet: SheetDrawing, facts: CutFacts) -> None:
-    """Table of contours in the order they are cut, a long one in two halves."""
+    """Table of contours in the order they are cut, a long one in blocks."""
     rows = cut_rows(facts)
-    table = _SHORT if len(rows) <= _SHORT.most else _LONG
-    sheet.text(_TABLE + 2.0j, "CUTS IN ORDER, mm FROM THE AXIS OF THE PART", 3.0)
+    table, first = _table(sheet.paper, len(rows)), _TABLE
+    if sheet.paper != A3:
+        first = complex(_BESIDE, sheet.paper.top - _HEAD)
+    sheet.text(first + 2.0j, "CUTS IN ORDER, mm FROM THE AXIS OF THE PART", 3.0)
     each = -(-len(rows) // table.blocks)
     for block in range(table.blocks):
-        corner = _TABLE + block * (table.width + _GAP)
+        corner = first + block * (table.width + _GAP)
         _cuts_block(sheet, table, corner, rows[block * each : (block + 1) * each])
 
 
@@ -228,9 +255,8 @@ def _cuts_block(
 
 
 def cut_rows(facts: CutFacts) -> list[tuple[str, ...]]:
-    """Rows of the table of cuts; of more holes than two halves hold the first and the last."""
-    flat, most = facts.flat, _LONG.blocks * _LONG.most
-    rows = []
+    """Rows of the table of cuts."""
+    flat, rows = facts.flat, []
     for step, number in enumerate(flat.cut_order, start=1):
         contour, path = flat.contours[number], facts.paths[number]
         size = contour_size(contour, "\u00d8")
@@ -241,9 +267,6 @@ def cut_rows(facts: CutFacts) -> list[tuple[str, ...]]:
     if len(rows) > _SHORT.most:
         short = (row[1].removeprefix("inner contour ").removesuffix(" contour") for row in rows)
         rows = [(row[0], name, *row[2:]) for row, name in zip(rows, short, strict=True)]
-    if len(rows) > most:
-        skipped = ("...", f"{len(rows) - most + 1} more: see the DXF", "", "", "", "", "", "")
-        rows = [*rows[: most - 2], skipped, rows[-1]]
     return rows
 
 
