@@ -158,8 +158,10 @@ def _ratio(ways: Ways, search: _Search) -> int | None:
     if fits is None:
         return None
     step = 1 if fits < asked else -1
-    while fits + step != asked and search(ways.asked.unchecked_copy({"ratio": fits + step})):
-        fits += step
+    for ratio in range(fits + step, asked, step):
+        if search(ways.asked.unchecked_copy({"ratio": ratio})) is None:
+            break
+        fits = ratio
     return fits
 
 
