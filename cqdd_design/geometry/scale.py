@@ -10,7 +10,9 @@ MOST_TUBE_WALL = 12.0
 
 
 class Unit(float):
-    """A millimetre at the scale of a machine, m; so many of it are a length that a shop is given.
+    """A millimetre at the scale of a machine, m.
+
+    So many of it are a length as sheets tell it, in whole hundredths of a millimetre.
 
     Examples
     --------
@@ -21,20 +23,9 @@ class Unit(float):
 
     def __mul__(self, count: float, /) -> float:
         """So many of it, as drawn."""
-        return as_drawn(float(self) * count)
+        return round(float(self) * count, _DRAWN_DIGITS)
 
     __rmul__ = __mul__
-
-
-def as_drawn(length: float) -> float:
-    """A length that nothing else fixes in whole hundredths of a millimetre, m: as sheets tell it.
-
-    Examples
-    --------
-    >>> as_drawn(38.5417e-3)
-    0.03854
-    """
-    return round(length, _DRAWN_DIGITS)
 
 
 def millimetre_unit(ring_outer_diameter: float) -> float:

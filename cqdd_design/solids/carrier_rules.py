@@ -9,7 +9,6 @@ from cqdd_design.design import Design
 from cqdd_design.design.reducer import Reducer
 from cqdd_design.errors import GeometryError
 from cqdd_design.geometry.columns import column_offsets, has_columns
-from cqdd_design.geometry.scale import as_drawn
 from cqdd_design.solids.dowel_rules import flange_dowels
 from cqdd_design.solids.layout import CarrierLayout, ColumnLayout, PackLayout
 from cqdd_design.solids.registers import NUT_SLOTS, spigot_depth
@@ -34,7 +33,7 @@ CLAMPED_SEAT = 1.0
 
 def pin_wall(diameter: float, unit: float) -> float:
     """Material of the cap around a pin or its counterbore, m."""
-    return as_drawn(max(unit, 0.375 * diameter))
+    return max(1.0 * unit, 0.375 * diameter)
 
 
 def counterbore_radius(pin: OutputPin) -> float:

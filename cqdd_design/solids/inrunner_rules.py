@@ -20,7 +20,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from cqdd_design.catalog.motors import Motor
-from cqdd_design.geometry.scale import as_drawn
 from cqdd_design.solids.encoder_rules import lay_out_encoder
 from cqdd_design.solids.motor_layout import InrunnerLayout
 from cqdd_design.solids.motor_rules import AIR_GAP, hub_length
@@ -164,6 +163,6 @@ def lay_out_inrunner(
         lip_bottom=lip_bottom,
         lip_radius=rotor_inner + min(1.0 * unit, 0.4 * (rotor_outer - rotor_inner)),
         web_top=min(lip_bottom + 2.5 * unit, ring_top),
-        cable_radius=as_drawn(min(0.3 * room, 3.0 * unit)) if room > 3.0 * unit else 0.0,
+        cable_radius=min(0.3 * room, 3.0 * unit) if room > 3.0 * unit else 0.0,
         cable_circle=round(dish + 0.5 * room, 4),
     )

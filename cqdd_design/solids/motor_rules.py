@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from cqdd_design.catalog.adhesives import ROTOR_COMPOUND, SAFETY, length_needed
 from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.catalog.motors import Motor
-from cqdd_design.geometry.scale import MOST_TUBE_WALL, as_drawn
+from cqdd_design.geometry.scale import MOST_TUBE_WALL
 from cqdd_design.solids.encoder_rules import lay_out_encoder
 from cqdd_design.solids.motor_layout import MotorLayout
 from cqdd_design.solids.registers import spigot_depth
@@ -191,7 +191,7 @@ def _most_holes(hub: float, rim: float, unit: float) -> WebHoles:
     """The largest lightening holes that go into a bell's web, none where they save nothing."""
     room = rim - 2.0 * unit - hub - 1.5 * unit
     middle = hub + 1.5 * unit + 0.5 * room
-    hole = as_drawn(min(0.5 * room, middle * math.sin(math.pi / _LIGHTENING) - 1.5 * unit))
+    hole = min(0.5 * room, middle * math.sin(math.pi / _LIGHTENING) - 1.5 * unit)
     return WebHoles(_LIGHTENING, middle, hole) if hole > unit else NO_HOLES
 
 
@@ -266,7 +266,6 @@ def lay_out_motor(
     if housing.flange_radius > spigot_inner:
         spigot = 0.0
     cable_room = inner - 0.5 * unit - housing.flange_radius - 0.5 * unit
-    leads = as_drawn(min(0.3 * cable_room, 4.0 * unit))
     return MotorLayout(
         stack_inner=0.5 * (motor.bore_diameter or 0.0),
         stack_outer=stack_outer,
@@ -303,6 +302,6 @@ def lay_out_motor(
         cover_screw=cap_screw(thread, flange + 1.2 * thread),
         cover_grip=flange,
         cover_engaged=ear_height,
-        cable_radius=leads if cable_room > 3.0 * unit else 0.0,
-        cable_circle=as_drawn(housing.flange_radius + 0.5 * unit + 0.35 * cable_room),
+        cable_radius=min(0.3 * cable_room, 4.0 * unit) if cable_room > 3.0 * unit else 0.0,
+        cable_circle=housing.flange_radius + 0.5 * unit + 0.35 * cable_room,
     )

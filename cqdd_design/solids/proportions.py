@@ -12,7 +12,7 @@ from cqdd_design.errors import GeometryError
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.geometry.ring import ring_root_radius
 from cqdd_design.geometry.runners import pin_runner, ring_runner
-from cqdd_design.geometry.scale import Unit, as_drawn, millimetre_unit
+from cqdd_design.geometry.scale import Unit, millimetre_unit
 from cqdd_design.geometry.validate import validate_geometry
 from cqdd_design.solids import behind_rules
 from cqdd_design.solids.carrier_rules import (
@@ -195,9 +195,9 @@ def _pack(design: Design, cam_bearing: Bearing, unit: float) -> PackLayout:
         # The ring is clamped outside the rollers' pockets, and the pins span what they bend over.
         seat, held = ring_root_radius(design), _held_pins(design, unit)
         relief = reducer.disc_spacing or relief
-    ledge = as_drawn(min(seat + 0.15 * unit, 0.5 * (seat + ring_radius)))
+    ledge = min(seat + 0.15 * unit, 0.5 * (seat + ring_radius))
     # On three quarters of the ring's wall, and on pins that stand in its pockets.
-    clamp = as_drawn(ring_radius - 0.25 * (ring_radius - ledge))
+    clamp = ring_radius - 0.25 * (ring_radius - ledge)
     inner = ledge
     if held is not None:
         wall = max(1.0 * unit, 0.25 * held.diameter)

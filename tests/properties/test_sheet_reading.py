@@ -113,7 +113,7 @@ def test_ears_and_slots_say_how_far_apart_they_are(three):
     assert housing[place].startswith("6 ")
     assert housing[place + 2 : place + 6] == ["from", "30\u00b0", "every", "60\u00b0"]
     # One hole stands at an angle, not from it.
-    leads = housing.index("\u00d896.88")
+    leads = housing.index("\u00d896.878")
     assert housing[leads + 1 : leads + 3] == ["at", "0\u00b0"]
     nut = labels_of(three, "bearing nut")
     place = next(i for i, text in enumerate(nut) if "slot" in text)
