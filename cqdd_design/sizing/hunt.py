@@ -119,6 +119,8 @@ class Hunt:
         Whether torques were lowered to what part errors leave of a design.
     strongest : str
         Cam bearing of the design that bears most, where torques were lowered to what it bears.
+    heavy : float
+        Mass of the actuator that was too much last, kg.
     fit : Fit
         The closest that heat and part errors leave.
     least_bore : float
@@ -182,6 +184,7 @@ class Hunt:
     shaft_bears: float = 1.0
     eased: bool = False
     strongest: str = ""
+    heavy: float = math.inf
     fit: Fit = FITS[0]
     least_bore: float = 0.0
     least_ring: float = 0.0

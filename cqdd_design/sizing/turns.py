@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 from cqdd_design.results import Check
@@ -21,6 +22,13 @@ _NEEDLES_BRING = 0.8
 """Least margin of these lines from which needles under the output pins are tried."""
 _LEAST_SHARE = 0.5
 """Of a peak torque that was not stated, below which no line's shortfall is met by lowering it."""
+_MASS = "MASS"
+_LIGHTER, _LITTLE_LIGHTER, _SAME = 2.0, 0.95, 1e-3
+"""Power of the share of mass that is too much by which torques are lowered, as a gearbox is but a
+part of the whole; the most that is left of them; and the share of a mass that counts as none."""
+_SMALLER_BRINGS = 0.95
+"""Least margin of the mass from which small gearboxes are tried: the housing round one is lighter,
+though the gearbox itself may not be."""
 _GOALS: Mapping[str, Goal] = {
     "BACKLASH": "backlash",
     "LOST-MOTION": "backlash",
@@ -77,7 +85,11 @@ def next_step(hunt: Hunt, found: Found, judged: Verdict) -> float | None:
         share = _bearing_all(hunt, judged, others)
         if share is None:
             return None
-        hunt.requirements = weaker(hunt.requirements, share, 1.0)
+        lasting = share if _MASS in others and _as_heavy(hunt, judged) else 1.0
+        hunt.requirements = weaker(hunt.requirements, share, lasting)
+        if lasting < 1.0:
+            # What a lighter one's motor holds is not to make it heavy again.
+            hunt.lowered, hunt.lowered_by = True, ""
         return 0.0
     if failing & SHAFT:
         stronger_shaft(hunt, found, judged.lines)
@@ -92,13 +104,30 @@ def next_step(hunt: Hunt, found: Found, judged: Verdict) -> float | None:
 def _bearing_all(hunt: Hunt, judged: Verdict, short: set[str]) -> float | None:
     """Share of a peak torque that was not stated which some lines bear; None where that helps none.
 
-    Of lines in proportion to it; others that do not come right by it end the trials.
+    Of lines in proportion to it, and of the mass; others that do not come right by it end the
+    trials.
     """
     lines = [line for line in judged.lines if line.id in short]
     if PEAK not in hunt.requirements.derived or not all(line.known for line in lines):
         return None
-    share = JUST * min(line.margin for line in lines)
+    share = min(_borne(line) for line in lines)
     return share if _LEAST_SHARE <= share < 1.0 else None
+
+
+def _as_heavy(hunt: Hunt, judged: Verdict) -> bool:
+    """Whether less peak torque has left the actuator as heavy as it was; what it is, is noted.
+
+    Then it is the other torque that decides.
+    """
+    now = next((one.value for one in judged.lines if one.id == _MASS), None) or 0.0
+    before, hunt.heavy = hunt.heavy, now
+    return math.isclose(now, before, rel_tol=_SAME)
+
+
+def _borne(line: Check) -> float:
+    if line.id == _MASS:
+        return float(max(min(line.margin**_LIGHTER, _LITTLE_LIGHTER), _LEAST_SHARE))
+    return JUST * line.margin
 
 
 def _needles_help(hunt: Hunt, judged: Verdict) -> bool:
@@ -133,8 +162,8 @@ def turned(hunt: Hunt, found: Found, judged: Verdict) -> bool:
         return True
     if failing & _LASTING and CONTINUOUS in hunt.requirements.derived:
         return False
-    goals = [goal for name, goal in _GOALS.items() if name in failing and goal not in hunt.tried]
-    if not goals or not failing <= {*_GOALS, "YIELD", *SHAFT} or goals[0] == hunt.goal:
+    goals = [goal for goal in _goals(failing, judged) if goal not in hunt.tried]
+    if not goals or goals[0] == hunt.goal:
         return False
     if failing & SHAFT:
         stronger_shaft(hunt, found, judged.lines)
@@ -142,3 +171,12 @@ def turned(hunt: Hunt, found: Found, judged: Verdict) -> bool:
     hunt.tried.add(goals[0])
     hunt.say(f"searching with {goals[0]} as the objective, which is asked for")
     return True
+
+
+def _goals(failing: set[str], judged: Verdict) -> list[Goal]:
+    """Goals of searches that may meet what fails, where they may meet all of it."""
+    asked = failing - {"YIELD", *SHAFT}
+    if asked == {_MASS}:
+        margin = next(line.margin for line in judged.lines if line.id == _MASS)
+        return ["size"] if margin >= _SMALLER_BRINGS else []
+    return [goal for name, goal in _GOALS.items() if name in failing and asked <= _GOALS.keys()]

@@ -55,8 +55,8 @@ from cqdd_design.solids.selection import (
     thread_size,
 )
 
-_LEAST_FLOOR = 1.5
-"""Thickness of the housing's floor under the shaft's bearing, units."""
+_FLOOR, _LEAST_FLOOR = 2.5, 1.5
+"""Thickness of the housing's floor, and of what is left of it under the shaft's bearing, units."""
 _LEAST_TUBE, _LEAST_TUBE_SHARE = 1.25, 0.2
 """Least wall of a hollow journal, units, and over its radius: thinner ones do not stay round in the
 grinder's chuck and under the bearing's press fit."""
@@ -326,10 +326,12 @@ def _housing(
     inside = carrier.cap_inner if carrier.cap else pin_heads
     boss = 0.5 * support.bearing.outer_diameter + max(1.2 * unit, 0.3 * support.section)
     nested = inside >= boss + 0.5 * unit
-    floor_top = carrier.lowest - 0.8 * unit
-    seat_top = -pack.gap if nested else floor_top
+    clear = carrier.lowest - 0.8 * unit
+    seat_top = -pack.gap if nested else clear
     seat_bottom = seat_top - support.bearing.width
-    bottom = min(floor_top - 2.5 * unit, seat_bottom - _LEAST_FLOOR * unit)
+    bottom = min(clear - _FLOOR * unit, seat_bottom - _LEAST_FLOOR * unit)
+    # Round the seat alone a floor has to be as thick as the bearing.
+    floor_top = clear if nested else min(clear, bottom + _FLOOR * unit)
     cover_top = carrier.output_seat_top + lip
     layout = HousingLayout(
         register_radius=place.tube,

@@ -13,6 +13,7 @@ from cqdd_design.design import requirements_from_mapping
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.geometry.runners import pin_runner
 from cqdd_design.machine import resolve
+from cqdd_design.sizing.able import CONTINUOUS, PEAK
 from cqdd_design.sizing.bought_parts import needle_pins
 from cqdd_design.sizing.exact import exact_checks
 from cqdd_design.sizing.finish import design_of, torque_reserve
@@ -24,7 +25,7 @@ from cqdd_design.sizing.reserves import needle_reserves_per_radius, pin_reserves
 from cqdd_design.sizing.search import Search
 from cqdd_design.sizing.spaces import FITS, NEEDLE_PINS, spaces
 from cqdd_design.sizing.stage_tables import stage_tables
-from cqdd_design.sizing.turns import _needles_help, turned
+from cqdd_design.sizing.turns import _needles_help, next_step, turned
 from cqdd_design.sizing.verified import _again, size_to_verdict
 from cqdd_design.verdict.headline import efficiency
 
@@ -167,8 +168,8 @@ class Line:
 
     known = True
 
-    def __init__(self, name, margin, status="fail"):
-        self.id, self.margin, self.status = name, margin, status
+    def __init__(self, name, margin, status="fail", value=None):
+        self.id, self.margin, self.status, self.value = name, margin, status, value
 
 
 class Judged:
@@ -216,6 +217,38 @@ def test_a_search_turns_to_what_is_asked_for_and_not_met(found):
     assert asks.goal == "efficiency"
 
 
+def test_a_mass_that_is_nearly_met_is_searched_for_by_size(found):
+    heavy = hunt(asked(pin_material="Alloy steel 12.9 (ISO 7379)"), fit=FITS[3])
+    assert not turned(heavy, found, Judged(Line("MASS", 0.94)))
+    assert (heavy.goal, heavy.fit) == ("mass", FITS[3])
+    assert turned(heavy, found, Judged(Line("MASS", 0.96), Line("YIELD", 0.5)))
+    assert (heavy.goal, heavy.fit) == ("size", FITS[0])
+    # Once.
+    assert not turned(heavy, found, Judged(Line("MASS", 0.99)))
+
+
+@pytest.mark.parametrize(("margin", "share"), [(0.9, 0.81), (0.99, 0.95), (0.6, 0.5)])
+def test_torques_that_nobody_stated_are_lowered_for_a_mass(found, margin, share):
+    """The peak first; the other too where that leaves the actuator as heavy as it was."""
+    free = asked().deriving(PEAK, CONTINUOUS)
+    light = hunt(free)
+    assert next_step(light, found, Judged(Line("MASS", margin, value=1.8))) == 0.0
+    first = light.requirements
+    assert first.peak_torque == pytest.approx(share * free.peak_torque, rel=0.05)
+    assert first.continuous_torque == min(free.continuous_torque, first.peak_torque)
+    assert light.may_rise(found.cam)
+    assert next_step(light, found, Judged(Line("MASS", margin, value=1.7995))) == 0.0
+    second = light.requirements
+    assert second.peak_torque == pytest.approx(share * first.peak_torque, rel=0.05)
+    assert second.continuous_torque == pytest.approx(share * first.continuous_torque, rel=0.05)
+    # What a lighter gearbox's motor could hold does not make the next one heavier.
+    assert not light.may_rise(found.cam)
+    assert next_step(light, found, Judged(Line("MASS", margin, value=1.7))) == 0.0
+    assert light.requirements.continuous_torque == second.continuous_torque
+    # What is stated is not lowered.
+    assert next_step(hunt(asked()), found, Judged(Line("MASS", margin, value=1.8))) is None
+
+
 @pytest.mark.deep
 @pytest.mark.parametrize(
     ("more", "line"),
@@ -229,3 +262,14 @@ def test_what_is_asked_for_beyond_loads_is_searched_for(more, line):
     done = size_to_verdict(asked(**more))
     assert done.verdict.meets == "yes"
     assert next(one for one in done.verdict.lines if one.id == line).status == "pass"
+
+
+@pytest.mark.deep
+def test_a_mass_alone_is_met_with_less_torque():
+    """What the motor can do at this ratio takes 1.76 kg."""
+    stated = requirements_from_mapping({"ratio": 10, "mass": "1.6 kg"})
+    done = size_to_verdict(stated)
+    assert done.verdict.meets == "yes"
+    line = next(one for one in done.verdict.lines if one.id == "MASS")
+    assert 0.95 * 1.6 < line.value <= 1.6
+    assert done.sizing.design.requirements.peak_torque > 20.0

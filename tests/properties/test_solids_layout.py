@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 from examples import examples
 from hypothesis import HealthCheck, given, settings
-from solids_designs import CHANGES, known_design, known_parts, machines, part_named
+from solids_designs import CHANGES, PAPER_FILE, known_design, known_parts, machines, part_named
 
 from cqdd_design.catalog import find_bearing
 from cqdd_design.catalog.bearings import Bearing
 from cqdd_design.catalog.motors import find_motor
 from cqdd_design.catalog.screws import column_screw
-from cqdd_design.design import Design
+from cqdd_design.design import Design, load_design
 from cqdd_design.errors import CatalogError, GeometryError
 from cqdd_design.gearbox.output_pins import pin_span
 from cqdd_design.geometry.contours import Circle
@@ -295,6 +295,19 @@ def test_notches_take_their_area_from_the_circle() -> None:
     assert outline.moments().area == pytest.approx(
         math.pi * radius**2 - 4.0 * (segment + slot), rel=1e-12
     )
+
+
+@pytest.mark.parametrize("name", ["cqdd-10", "reference-s"])
+def test_no_floor_is_thicker_than_it_has_to_be(name: str) -> None:
+    """Inside the carrier's cap or below it, the shaft's bearing sits in a boss on a thin floor."""
+    layout = resolve(load_design(PAPER_FILE.parent / f"{name}.toml")).layout
+    housing, seat_top = layout.housing, layout.shaft.lower_seat_top
+    inside = seat_top > layout.carrier.lowest
+    assert inside == (name == "cqdd-10")
+    assert housing.floor_top - housing.bottom < 0.6 * layout.shaft.support.bearing.width
+    assert housing.floor_top < layout.carrier.lowest
+    under = seat_top - layout.shaft.support.bearing.width
+    assert housing.bottom < under < housing.floor_top or inside
 
 
 def test_fits_are_named_and_have_limits() -> None:
