@@ -125,6 +125,7 @@ def _as_heavy(hunt: Hunt, judged: Verdict) -> bool:
 
 
 def _borne(line: Check) -> float:
+    """Share of a peak torque with which a line may come right."""
     if line.id == _MASS:
         return float(max(min(line.margin**_LIGHTER, _LITTLE_LIGHTER), _LEAST_SHARE))
     return JUST * line.margin
