@@ -134,7 +134,7 @@ class Hunt:
     pins : tuple of bool
         Whether output pins that are tried are on needles.
     tried : set of Goal
-        Goals that were taken to meet something that is asked for.
+        Goals that were taken to meet something that is asked for, and those left for them.
     sturdier : float
         Reserve at the peak that something takes which is asked for: stiffness, or a stop.
     held_up_to : float

@@ -119,16 +119,21 @@ def _as_heavy(hunt: Hunt, judged: Verdict) -> bool:
 
     Then it is the other torque that decides.
     """
-    now = next((one.value for one in judged.lines if one.id == _MASS), None) or 0.0
-    before, hunt.heavy = hunt.heavy, now
-    return math.isclose(now, before, rel_tol=_SAME)
+    before, hunt.heavy = hunt.heavy, _mass(judged).value or 0.0
+    return math.isclose(hunt.heavy, before, rel_tol=_SAME)
+
+
+def _mass(judged: Verdict) -> Check:
+    return next(line for line in judged.lines if line.id == _MASS)
 
 
 def _borne(line: Check) -> float:
-    """Share of a peak torque with which a line may come right."""
-    if line.id == _MASS:
-        return float(max(min(line.margin**_LIGHTER, _LITTLE_LIGHTER), _LEAST_SHARE))
-    return JUST * line.margin
+    """Share of a peak torque with which a line may come right; 0 of a mass that is far too much."""
+    if line.id != _MASS:
+        return JUST * line.margin
+    if line.margin < _LEAST_SHARE:
+        return 0.0
+    return float(max(min(line.margin**_LIGHTER, _LITTLE_LIGHTER), _LEAST_SHARE))
 
 
 def _needles_help(hunt: Hunt, judged: Verdict) -> bool:
@@ -163,21 +168,23 @@ def turned(hunt: Hunt, found: Found, judged: Verdict) -> bool:
         return True
     if failing & _LASTING and CONTINUOUS in hunt.requirements.derived:
         return False
-    goals = [goal for goal in _goals(failing, judged) if goal not in hunt.tried]
+    goals = [goal for goal in _goals(hunt, failing, judged) if goal not in hunt.tried]
     if not goals or goals[0] == hunt.goal:
         return False
     if failing & SHAFT:
         stronger_shaft(hunt, found, judged.lines)
+    hunt.tried |= {hunt.goal, goals[0]}
     hunt.goal, hunt.fit = goals[0], FITS[0]
-    hunt.tried.add(goals[0])
     hunt.say(f"searching with {goals[0]} as the objective, which is asked for")
     return True
 
 
-def _goals(failing: set[str], judged: Verdict) -> list[Goal]:
+def _goals(hunt: Hunt, failing: set[str], judged: Verdict) -> list[Goal]:
     """Goals of searches that may meet what fails, where they may meet all of it."""
     asked = failing - {"YIELD", *SHAFT}
     if asked == {_MASS}:
-        margin = next(line.margin for line in judged.lines if line.id == _MASS)
-        return ["size"] if margin >= _SMALLER_BRINGS else []
+        mass = _mass(judged)
+        if hunt.goal != "mass":
+            return ["mass"] if mass.known else []
+        return ["size"] if mass.known and mass.margin >= _SMALLER_BRINGS else []
     return [goal for name, goal in _GOALS.items() if name in failing and asked <= _GOALS.keys()]

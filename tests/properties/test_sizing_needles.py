@@ -225,6 +225,20 @@ def test_a_mass_that_is_nearly_met_is_searched_for_by_size(found):
     assert (heavy.goal, heavy.fit) == ("size", FITS[0])
     # Once.
     assert not turned(heavy, found, Judged(Line("MASS", 0.99)))
+    # A search for something else looks for the lightest first.
+    cool = hunt(asked(pin_material="Alloy steel 12.9 (ISO 7379)"))
+    cool.goal = "efficiency"
+    assert turned(cool, found, Judged(Line("MASS", 0.7)))
+    assert cool.goal == "mass"
+    assert turned(cool, found, Judged(Line("MASS", 0.97)))
+    assert cool.goal == "size"
+    assert not turned(cool, found, Judged(Line("MASS", 0.97)))
+    # A motor of which no mass is known.
+    unknown = Line("MASS", 0.0, "unknown")
+    unknown.known = False
+    cool = hunt(asked())
+    cool.goal = "efficiency"
+    assert not turned(cool, found, Judged(unknown))
 
 
 @pytest.mark.parametrize(("margin", "share"), [(0.9, 0.81), (0.99, 0.95), (0.6, 0.5)])
@@ -245,7 +259,8 @@ def test_torques_that_nobody_stated_are_lowered_for_a_mass(found, margin, share)
     assert not light.may_rise(found.cam)
     assert next_step(light, found, Judged(Line("MASS", margin, value=1.7))) == 0.0
     assert light.requirements.continuous_torque == second.continuous_torque
-    # What is stated is not lowered.
+    # Half of the mass no torque takes away; and what is stated is not lowered.
+    assert next_step(light, found, Judged(Line("MASS", 0.45, value=1.8))) is None
     assert next_step(hunt(asked()), found, Judged(Line("MASS", margin, value=1.8))) is None
 
 
