@@ -192,4 +192,4 @@ def test_what_steps_go_over_is_not_searched_for_before():
     fits = 10.0
     assert between(fits, 1.09 * fits) == fits < between(fits, 1.12 * fits)
     # What is left between is as far as the steps go.
-    assert (1.0 + NEARER) ** STEPS == pytest.approx(1.1, abs=0.01)
+    assert pytest.approx(1.1, abs=0.01) == (1.0 + NEARER) ** STEPS
