@@ -14,9 +14,8 @@ from cqdd_design.sizing.slower import TOO_HOT
 
 ALONE = {PEAK: {"MOTOR-PEAK"}, CONTINUOUS: TOO_HOT}
 """Lines that less of one torque alone helps."""
-_NEAR = 1.1
-"""Factor between a torque that fits and one that does not within which none is tried: as far as the
-search of whoever asks goes from there, see :mod:`cqdd_design.sizing.no_nearer`."""
+_NEAR = 1.02
+"""Factor between a torque that fits and one that does not within which none is tried."""
 _DIGITS, _HELD = 2, 0.97
 """Of torques that are told; share of what a motor was found to hold for ever that is tried."""
 

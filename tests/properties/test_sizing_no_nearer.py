@@ -10,7 +10,6 @@ from cqdd_design.design import requirements_from_mapping
 from cqdd_design.sizing import no_nearer
 from cqdd_design.sizing.infeasible import SizingInfeasibleError
 from cqdd_design.sizing.no_nearer import NEARER, STEPS, moved
-from cqdd_design.sizing.torque_steps import between
 from cqdd_design.sizing.ways import Torques, Ways
 
 ASKED = {
@@ -186,10 +185,3 @@ def test_where_nothing_fits_nothing_is_looked_for(monkeypatch):
     with pytest.raises(SizingInfeasibleError, match=r"^it does not fit\.$"):
         no_nearer.size_or_refuse(requirements_from_mapping(ASKED), said.append)
     assert said == []
-
-
-def test_what_steps_go_over_is_not_searched_for_before():
-    fits = 10.0
-    assert between(fits, 1.09 * fits) == fits < between(fits, 1.12 * fits)
-    # What is left between is as far as the steps go.
-    assert pytest.approx(1.1, abs=0.01) == (1.0 + NEARER) ** STEPS
