@@ -95,6 +95,10 @@ class Hunt:
         where none has been.
     any_will_do : bool
         Whether the first design whose verdict is yes is enough, the best or not.
+    best_alone : bool
+        Whether nothing but the best is searched for: any design, and the strongest, were in vain.
+    in_vain : list of Requirements
+        For which any design was searched for, and the strongest, and none found.
     short_of : tuple of Check
         Lines of the shaft and its bearings that the best of all designs was far from meeting, where
         that was why there is none.
@@ -174,6 +178,8 @@ class Hunt:
     extra_of: dict[str, dict[str, float]] = field(default_factory=dict)
     trusting: bool = False
     any_will_do: bool = False
+    best_alone: bool = False
+    in_vain: list[Requirements] = field(default_factory=list)
     short_of: tuple[Check, ...] = ()
     settling: bool = False
     borne: tuple[float, float] | None = None

@@ -186,7 +186,7 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
     if still:
         words = _titles(line for lines in still.values() for line in lines)
         besides += f" With {' or '.join(still)} it is still short of {words}."
-    return replace(ways, besides=besides.strip()).told()
+    return replace(ways, besides=besides.strip(), in_vain=tuple(hunt.in_vain)).told()
 
 
 def _at_ratio(hunt: Hunt, asked: Requirements, ratio: int) -> tuple[bool, tuple[str, ...]]:
@@ -276,6 +276,7 @@ def _tried(hunt: Hunt, asked: Requirements) -> _Way:
         found = searched(own, asked)
     except InfeasibleError as refusal:
         _let_go(refusal)
+        hunt.in_vain.append(asked)
         return _Way(_without_designs(own), None, refusal)
     return _Way(_without_designs(own), found, None)
 

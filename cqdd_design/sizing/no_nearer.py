@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import partial
 from typing import Generic, NamedTuple, TypeVar
 
 from cqdd_design.catalog.motors import Motor
@@ -26,6 +27,8 @@ NEARER = 0.02
 """Share of a requirement by which it is moved."""
 STEPS = 5
 """Of it at most: each costs a search."""
+_ALIKE = 0.005
+"""Share of a torque or a length that makes a search no easier."""
 _DIGITS = 6
 
 Design = TypeVar("Design")
@@ -33,6 +36,7 @@ Told = Mapping[str, float]
 """Requirements by key, each in the unit that it is told in."""
 _Search = Callable[[Requirements], VerifiedDesign | None]
 _MM = 1e-3
+_SPACE = ("outer_diameter", "length")
 
 
 class Nearest(NamedTuple, Generic[Design]):
@@ -54,21 +58,33 @@ def size_or_refuse(
 
     Unless that goes on for longer than is worth while.
     """
-
-    def search(asked: Requirements) -> VerifiedDesign | None:
-        try:
-            return size_to_verdict(asked, motor=motor, ambient=ambient, goal=goal)
-        except InfeasibleError:
-            return None
-
     try:
         return size_or_nearest(requirements, progress, motor=motor, ambient=ambient, goal=goal)
     except WaysOutError as refusal:
         ways = refusal.ways
+    to_verdict = partial(size_to_verdict, motor=motor, ambient=ambient, goal=goal)
+
+    def search(asked: Requirements) -> VerifiedDesign | None:
+        in_vain = any(_no_easier(asked, other) for other in ways.in_vain)
+        try:
+            return to_verdict(asked, best_alone=True) if in_vain else to_verdict(asked)
+        except InfeasibleError:
+            return None
+
     if ways.words:
         progress(f"What fits at least: {', or '.join(ways.words)}.")
         progress("looking whether anything a little nearer fits")
     raise no_nearer(ways, search).told()
+
+
+def _no_easier(asked: Requirements, other: Requirements) -> bool:
+    """Whether nothing less is asked than by other requirements, as good as."""
+    more = all(
+        getattr(asked, key) >= (1.0 - _ALIKE) * getattr(other, key) for key in (PEAK, CONTINUOUS)
+    )
+    tighter = all(getattr(asked, key) <= (1.0 + _ALIKE) * getattr(other, key) for key in _SPACE)
+    changed = {key: getattr(other, key) for key in (PEAK, CONTINUOUS, *_SPACE)}
+    return more and tighter and asked.unchecked_copy(changed) == other
 
 
 def no_nearer(ways: Ways, search: _Search) -> Ways:

@@ -78,7 +78,9 @@ def _sound(hunt: Hunt, kind: Space) -> tuple[Found, Verdict] | None:
         if strong is None:
             break
         found = strong[1]
-        can, step = look(hunt, found.sized.machine)
+        can, step = look(hunt, replace(found.sized.machine, stiff=True))
+        if can is None and step is None:
+            can, step = look(hunt, found.sized.machine)
         if can is None and step is None:
             step = last_look(hunt, found.sized.machine)
             if step is None or (step == 0.0 and min(hunt.borne or (1.0,)) >= _NEARLY):

@@ -82,6 +82,7 @@ def size_to_verdict(
     motor: Motor | None = None,
     ambient: float | None = None,
     goal: Goal = "mass",
+    best_alone: bool = False,
 ) -> VerifiedDesign:
     """Find the best design by a goal, among those tried, whose verdict is yes.
 
@@ -97,13 +98,17 @@ def size_to_verdict(
         Of the air, deg C.
     goal : Goal
         What to make small: see :mod:`cqdd_design.sizing.goals`.
+    best_alone : bool
+        Whether it is known that any design would be searched for in vain, and so is not.
 
     Raises
     ------
     SizingInfeasibleError
         When no design was found whose verdict is yes; it names the lines that bind.
     """
-    return searched(new_hunt(requirements, progress, motor, ambient, goal), requirements)
+    hunt = new_hunt(requirements, progress, motor, ambient, goal)
+    hunt.best_alone = best_alone
+    return searched(hunt, requirements)
 
 
 def new_hunt(
@@ -130,6 +135,8 @@ def searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
     try:
         return _searched(hunt, requirements)
     except SizingInfeasibleError:
+        if hunt.best_alone:
+            raise
         if not hunt.any_will_do and hunt.calm is not None:
             hunt.say("searching for any design that meets everything")
             hunt = new_hunt(requirements, hunt.say, hunt.motor, hunt.ambient, goal)

@@ -50,6 +50,8 @@ class Ways:
         Ring and length, each by itself, m.
     besides : str
         What does not help, in sentences.
+    in_vain : tuple of Requirements
+        For which any design was searched for, and none found.
     """
 
     refusal: SizingInfeasibleError
@@ -60,6 +62,7 @@ class Ways:
     ratio: int | None
     space: Mapping[str, float]
     besides: str = ""
+    in_vain: tuple[Requirements, ...] = ()
 
     @property
     def words(self) -> tuple[str, ...]:

@@ -512,6 +512,21 @@ def test_no_forces_draw_energy_out_of_bodies_however_deep_a_law_counts(
     assert rubbing - raw_rubbing == pytest.approx(lift, abs=1e-20)
 
 
+def test_own_terms_are_raised_where_an_eigenvalue_is_too_small_alone() -> None:
+    """Found by factors, as eigenvalues of all angles say."""
+    rng = np.random.default_rng(7)
+    half = rng.normal(size=(40, 6, 6))
+    matrix = half @ np.swapaxes(half, 1, 2)
+    least = rng.uniform(-1e-6, 1e-6, size=40)
+    least[:4] = 0.0, 1e-12, -1e-12, 0.5
+    matrix += (least - np.linalg.eigvalsh(matrix)[:, 0])[:, None, None] * np.eye(6)
+    raised = compliance_module.without_gain(matrix, matrix) - matrix
+    floor = 1e-9 * np.abs(matrix).max(axis=(1, 2))
+    wanted = np.clip(floor - np.linalg.eigvalsh(matrix)[:, 0], 0.0, None)
+    assert np.einsum("acc->ac", raised) == pytest.approx(wanted[:, None] + np.zeros(6), abs=1e-14)
+    assert 10 < np.count_nonzero(wanted) < 35
+
+
 def test_every_place_is_a_vertex_so_that_no_field_is_read_where_it_is_sharp() -> None:
     """Between vertices a point of quadrature may fall on a place: tractions of 1e24 N/m."""
     design = reference_s()

@@ -476,6 +476,13 @@ def test_before_a_refusal_any_design_is_searched_for(monkeypatch: pytest.MonkeyP
     with pytest.raises(SizingInfeasibleError):
         searched(hunt_for(stated), stated)
     assert tried == [False, True] * 2
+    # Not where that is known to be in vain.
+    tried.clear()
+    alone = hunt_for(stated)
+    alone.best_alone = True
+    with pytest.raises(SizingInfeasibleError):
+        searched(alone, stated)
+    assert tried == [False]
 
 
 def test_any_design_is_judged_as_it_was_found(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -205,6 +205,16 @@ def test_the_torque_and_the_least_ratio_that_fit_are_told(monkeypatch):
     assert tried == [(10, 63.0, 7.0), *raised, *((ratio, 120.0, 7.0) for ratio in (20, 19, 18, 17))]
 
 
+def test_what_was_searched_for_in_vain_is_known(monkeypatch):
+    given = {"peak_torque": "120 N*m", "continuous_torque": "7 N*m"}
+    error, tried = told(
+        monkeypatch, given, lambda own: short("YIELD") if own.peak_torque > 70.0 else None
+    )
+    vain = [(own.ratio, own.peak_torque, own.continuous_torque) for own in error.ways.in_vain]
+    assert vain == [one for one in tried if one[1] > 70.0]
+    assert vain
+
+
 def test_a_ratio_at_which_the_motor_would_do_is_told_with_what_else_is_short(monkeypatch):
     given = {"peak_torque": "120 N*m", "continuous_torque": "11 N*m"}
 

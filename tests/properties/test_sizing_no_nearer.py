@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from cqdd_design.design import requirements_from_mapping
 from cqdd_design.sizing import no_nearer
 from cqdd_design.sizing.infeasible import SizingInfeasibleError
-from cqdd_design.sizing.no_nearer import NEARER, STEPS, moved
+from cqdd_design.sizing.no_nearer import NEARER, STEPS, _no_easier, moved
 from cqdd_design.sizing.ways import Torques, Ways
 
 ASKED = {
@@ -185,3 +185,51 @@ def test_where_nothing_fits_nothing_is_looked_for(monkeypatch):
     with pytest.raises(SizingInfeasibleError, match=r"^it does not fit\.$"):
         no_nearer.size_or_refuse(requirements_from_mapping(ASKED), said.append)
     assert said == []
+
+
+@pytest.mark.parametrize(
+    ("change", "no_easier"),
+    [
+        ({}, True),
+        # As good as the same, more, or in less space.
+        ({"peak_torque": "44.8 N*m"}, True),
+        ({"peak_torque": "60 N*m", "length": "7 mm"}, True),
+        ({"peak_torque": "44.5 N*m"}, False),
+        ({"continuous_torque": "5.9 N*m"}, False),
+        ({"length": "8.1 mm"}, False),
+        ({"outer_diameter": "51 mm"}, False),
+        # Anything else may be easier.
+        ({"ratio": 17}, False),
+        ({"stiffness": "1.6 N*m/arcmin"}, False),
+    ],
+)
+def test_no_easier_is_more_torque_or_less_space_and_all_else_the_same(change, no_easier):
+    other = requirements_from_mapping(ASKED)
+    assert _no_easier(requirements_from_mapping(ASKED | change), other) is no_easier
+
+
+def test_any_design_is_not_searched_for_again_where_that_was_in_vain(monkeypatch):
+    """Nor the strongest: in a refusal of five minutes that took one."""
+    asked, sought = requirements_from_mapping(ASKED), []
+    vain = asked.unchecked_copy({"peak_torque": 21.0})
+    torques = Torques(20.0, 6.0)
+
+    def refused(*_, **__):
+        raise Ways(**(vars(ways(torques=torques)) | {"in_vain": (vain,)})).told()
+
+    def search(own, *, motor, ambient, goal, best_alone=False):
+        sought.append((own.peak_torque, best_alone))
+        if own.peak_torque > 21.0:
+            raise SizingInfeasibleError("no.", binding=("YIELD",), most_torque=None)
+        return design(own)
+
+    monkeypatch.setattr(no_nearer, "size_or_nearest", refused)
+    monkeypatch.setattr(no_nearer, "size_to_verdict", search)
+    with pytest.raises(SizingInfeasibleError) as caught:
+        no_nearer.size_or_refuse(asked)
+    assert caught.value.to_dict()["most_peak_torque_Nm"] == pytest.approx(20.808)
+    assert sought == [
+        (pytest.approx(20.4), False),
+        (pytest.approx(20.808), False),
+        (pytest.approx(21.2242, abs=1e-3), True),
+    ]

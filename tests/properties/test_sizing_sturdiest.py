@@ -150,6 +150,24 @@ def test_one_that_jams_is_judged_again_with_more_clearance(
     assert hunt.fit == FITS[0]
 
 
+def test_what_rigid_parts_ask_for_is_given_before_bodies_are_meshed(
+    light: Found, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    hunt = short(light, 0.9)
+    seen = judging(monkeypatch, lambda _: "yes")
+    looked: list[tuple[float, bool]] = []
+
+    def look(_: Hunt, machine: Machine) -> tuple[None, float | None]:
+        looked.append((clearance(machine), machine.stiff))
+        return None, 1e-6 if clearance(machine) == FITS[0].hole_clearance else None
+
+    monkeypatch.setattr(sturdiest, "look", look)
+    assert sturdiest.strong_and_sound(hunt) is not None
+    roomier = FITS[1].hole_clearance
+    assert looked == [(FITS[0].hole_clearance, True), (roomier, True), (roomier, False)]
+    assert [clearance(one) for one in seen] == [roomier]
+
+
 @pytest.mark.parametrize(("borne", "asked"), [(0.85, False), (0.95, True)])
 def test_few_gearboxes_turn_away_what_is_far_from_sound_alone(
     light: Found, monkeypatch: pytest.MonkeyPatch, borne: float, asked: bool

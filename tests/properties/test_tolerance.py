@@ -8,6 +8,7 @@ import sys
 import threading
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -33,6 +34,7 @@ from cqdd_design.gearbox.tolerance.evaluate import (
     LOADS,
     OUTPUTS,
     RANKED,
+    EnsembleTables,
     body_compliance,
     ensemble_tables,
     evaluate_gearboxes,
@@ -132,8 +134,29 @@ def test_numbers_do_not_depend_on_threads_or_blocks() -> None:
     for some in (LOADS, RANKED):
         alone = evaluate_gearboxes(tables, errors, outputs=some)
         assert np.array_equal(alone, one[:, [OUTPUTS.index(name) for name in some]])
+    # Tables of rigid bodies differ by what yields alone.
+    rigid = ensemble_tables(model, 40.0, 88)
+    assert not np.array_equal(one, evaluate_gearboxes(rigid, errors))
+    assert np.array_equal(one, evaluate_gearboxes(rigid.yielding(bodies), errors))
     pieces = [work_block(ensemble, Block(first, 4)) for first in (8, 0, 4)]
     assert np.array_equal(one, np.concatenate([pieces[1], pieces[2], pieces[0]]))
+
+
+def test_tables_of_one_design_are_made_once_whether_it_yields_or_not(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    made: list[float] = []
+
+    def tables(*given: Any, **named: Any) -> EnsembleTables:
+        made.append(given[1])
+        return ensemble_tables(*given, **named)
+
+    monkeypatch.setattr("cqdd_design.gearbox.tolerance.ensemble.ensemble_tables", tables)
+    yielding = make_ensemble(paper(), torque=31.5, angles=88)
+    assert yielding.bodies is not None
+    for one in (replace(yielding, bodies=None), yielding, replace(yielding, outputs=LOADS)):
+        work_block(one, Block(0, 2))
+    assert made == [31.5]
 
 
 def test_without_tolerances_every_gearbox_is_the_perfect_one() -> None:

@@ -89,15 +89,18 @@ def _tables(ensemble: Ensemble) -> EnsembleTables:
 
 @functools.lru_cache(maxsize=2)
 def _of_all(ensemble: Ensemble) -> EnsembleTables:
-    warm = _warm(ensemble)
+    rigid = _rigid(replace(ensemble, bodies=None))
+    if ensemble.bodies is None:
+        return rigid
+    return rigid.yielding(_yielding(ensemble.bodies, ensemble.torque, ensemble.angles))
+
+
+@functools.lru_cache(maxsize=2)
+def _rigid(ensemble: Ensemble) -> EnsembleTables:
+    """Of rigid bodies; those that yield differ from it by that alone."""
     # What the kernels know of pins off their holes are errors of position, see `work_block`.
-    model = replace(warm, pin_reach=0.0)
-    bodies = None
-    if ensemble.bodies is not None:
-        bodies = _yielding(ensemble.bodies, ensemble.torque, ensemble.angles)
-    return ensemble_tables(
-        model, ensemble.torque, ensemble.angles, bodies, outputs=ensemble.outputs
-    )
+    model = replace(_warm(ensemble), pin_reach=0.0)
+    return ensemble_tables(model, ensemble.torque, ensemble.angles, outputs=ensemble.outputs)
 
 
 @functools.lru_cache(maxsize=2)
@@ -135,7 +138,7 @@ def work_block(ensemble: Ensemble, block: Block) -> FloatArray:
         block.count,
         dict.fromkeys(block.exchanged, 1),
     )
-    warm = _warm(ensemble)
+    warm = _warm(replace(ensemble, bodies=None, outputs=OUTPUTS))
     angle = warm.hole_clocking + 2.0 * np.pi * np.arange(warm.pin_count) / warm.pin_count
     outward = warm.pin_reach * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     errors = errors._replace(pin_position=errors.pin_position + outward)

@@ -95,6 +95,14 @@ class EnsembleTables:
     start: Start
     shared: Shared
 
+    def yielding(self, bodies: BodyCompliance) -> EnsembleTables:
+        """The same gearbox with discs and ring that yield."""
+        shared = self.shared._replace(
+            compliance=model_compliance(self.model, bodies.rubbing),
+            idle=model_compliance(self.model, bodies.smooth),
+        )
+        return replace(self, shared=shared)
+
 
 def turn_angles(lobe_count: int) -> int:
     """Crank angles over the output turn that an ensemble solves: about a thousand."""
@@ -185,21 +193,20 @@ def ensemble_tables(
     perfect = contact_sweep(held, torque, states=states).state_vectors
     free = np.zeros((2, *perfect.shape)) if outputs == LOADS else free_poses(model, states)
     start = Start(marked, perfect, free, torque)
-    return EnsembleTables(model, states, start, _shared(model, states, torque, bodies))
+    rigid = EnsembleTables(model, states, start, _shared(model, states, torque))
+    return rigid if bodies is None else rigid.yielding(bodies)
 
 
-def _shared(
-    model: ContactModel, states: NominalStates, torque: float, bodies: BodyCompliance | None
-) -> Shared:
+def _shared(model: ContactModel, states: NominalStates, torque: float) -> Shared:
     friction = _driving(model, torque)
     teeth = states.ring.equivalent_radius
     rubbed = rubbing(model, states, friction, torque)
-    rubbing_too, alone = bodies or (None, None)
+    held = model_compliance(model)
     return Shared(
         rubbing=rubbed,
         smooth=rubbed._replace(share=np.zeros_like(rubbed.share)),
-        compliance=model_compliance(model, rubbing_too),
-        idle=model_compliance(model, alone),
+        compliance=held,
+        idle=held,
         worn=Worn(
             slip=np.abs(slip(model, states)),
             pressing=line_contact_pressure(1.0, model.contact_length, teeth, model.ring_modulus)
