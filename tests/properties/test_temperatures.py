@@ -20,6 +20,7 @@ from cqdd_design.design import load_design
 from cqdd_design.design.duty_file import read_duty
 from cqdd_design.errors import ContactError
 from cqdd_design.gearbox.checks.allowables import BINDING_OVERLAP
+from cqdd_design.gearbox.checks.heat import WarmPart, rise_check
 from cqdd_design.gearbox.contact.rubbing import ContactFriction
 from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 from cqdd_design.gearbox.heat.cycle import settled_cycle
@@ -329,6 +330,14 @@ def test_reference_s_is_too_hot_and_binds(found: MachineTemperatures) -> None:
     assert (clearance.id, clearance.status) == ("THERMAL-CLEARANCE", "fail")
     assert clearance.value > 10.0
     assert found.warnings
+
+
+@pytest.mark.parametrize(("winding", "said"), [(299.0, False), (301.0, True)])
+def test_what_no_part_stands_is_told_as_a_measure_of_heat(winding: float, said: bool) -> None:
+    parts = (WarmPart("winding", winding, 120.0), WarmPart("housing", 90.0, 80.0))
+    line = rise_check(parts, 25.0, 400.0, 390.0)
+    assert (line.value, line.status) == (winding, "fail")
+    assert ("beyond 300 degC" in line.substituted) is said
 
 
 @pytest.mark.deep
