@@ -137,7 +137,11 @@ def test_numbers_do_not_depend_on_threads_or_blocks() -> None:
     # Tables of rigid bodies differ by what yields alone.
     rigid = ensemble_tables(model, 40.0, 88)
     assert not np.array_equal(one, evaluate_gearboxes(rigid, errors))
-    assert np.array_equal(one, evaluate_gearboxes(rigid.yielding(bodies), errors))
+    yielding = rigid.yielding(bodies)
+    assert np.array_equal(one, evaluate_gearboxes(yielding, errors))
+    assert np.array_equal(yielding.shared.compliance.bodies, bodies.rubbing)
+    assert np.array_equal(yielding.shared.idle.bodies, bodies.smooth)
+    assert not np.array_equal(bodies.rubbing, bodies.smooth)
     pieces = [work_block(ensemble, Block(first, 4)) for first in (8, 0, 4)]
     assert np.array_equal(one, np.concatenate([pieces[1], pieces[2], pieces[0]]))
 

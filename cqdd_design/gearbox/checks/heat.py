@@ -49,7 +49,9 @@ def rise_check(parts: tuple[WarmPart, ...], ambient: float, heat: float, as_draw
     told = ", ".join(f"{one.name} {one.temperature:.0f} of {one.most:g}" for one in parts)
     burnt = ""
     if max(one.temperature for one in parts) > _BURNT:
-        burnt = f"; beyond {_BURNT:g} degC that is how much heat is too much, not how warm parts get"
+        burnt = (
+            f"; beyond {_BURNT:g} degC that is how much heat is too much, not how warm parts get"
+        )
     return build_check(
         "THERMAL-RISE",
         worst.temperature,
