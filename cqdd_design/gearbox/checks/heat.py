@@ -10,7 +10,6 @@ from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.results import Check
 
-
 _BURNT = 300.0
 """Of a part, deg C: beyond it windings, grease and adhesives are no more, and what a network of
 conductances says is a measure of the heat that is too much."""
