@@ -139,10 +139,10 @@ def test_numbers_do_not_depend_on_threads_or_blocks() -> None:
     assert not np.array_equal(one, evaluate_gearboxes(rigid, errors))
     yielding = rigid.yielding(bodies)
     assert np.array_equal(one, evaluate_gearboxes(yielding, errors))
-    for held, given in (("compliance", bodies.rubbing), ("idle", bodies.smooth)):
+    for held, drawn in (("compliance", bodies.rubbing), ("idle", bodies.smooth)):
         # The kernel's order: whose force first, then whose closing.
         inside = getattr(yielding.shared, held).bodies
-        assert np.array_equal(inside, np.swapaxes(given, 2, 3))
+        assert np.array_equal(inside, np.swapaxes(drawn, 2, 3))
     assert not np.array_equal(bodies.rubbing, bodies.smooth)
     pieces = [work_block(ensemble, Block(first, 4)) for first in (8, 0, 4)]
     assert np.array_equal(one, np.concatenate([pieces[1], pieces[2], pieces[0]]))
