@@ -28,7 +28,7 @@ NEARER = 0.02
 STEPS = 5
 """Of it at most: each costs a search."""
 _ALIKE = 0.005
-"""Share of a torque or a length that makes a search no easier."""
+"""Share of a torque or a length by which a search is as good as no easier."""
 _DIGITS = 6
 
 Design = TypeVar("Design")
@@ -78,7 +78,7 @@ def size_or_refuse(
 
 
 def _no_easier(asked: Requirements, other: Requirements) -> bool:
-    """Whether nothing less is asked than by other requirements, as good as."""
+    """Whether as much torque is asked for in as little space as by others, else the same."""
     more = all(
         getattr(asked, key) >= (1.0 - _ALIKE) * getattr(other, key) for key in (PEAK, CONTINUOUS)
     )

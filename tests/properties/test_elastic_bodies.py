@@ -513,7 +513,6 @@ def test_no_forces_draw_energy_out_of_bodies_however_deep_a_law_counts(
 
 
 def test_own_terms_are_raised_where_an_eigenvalue_is_too_small_alone() -> None:
-    """Found by factors, as eigenvalues of all angles say."""
     rng = np.random.default_rng(7)
     half = rng.normal(size=(40, 6, 6))
     matrix = half @ np.swapaxes(half, 1, 2)

@@ -19,7 +19,6 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.gearbox.bodies import bore
 from cqdd_design.gearbox.bodies.depths import pin_depth, ring_depths
@@ -183,27 +182,11 @@ def without_gain(matrix: FloatArray, plain: FloatArray) -> FloatArray:
     try:
         np.linalg.cholesky(plain)
     except np.linalg.LinAlgError:
+        least = np.linalg.eigvalsh(plain)[:, 0]
         floor = _LEAST_EIGENVALUE * np.abs(plain).max(axis=(1, 2))
-        lift = np.zeros(len(plain))
-        weak = _not_above(plain, floor)
-        lift[weak] = np.clip(floor[weak] - np.linalg.eigvalsh(plain[weak])[:, 0], 0.0, None)
+        lift = np.clip(floor - least, 0.0, None)
         return np.asarray(matrix + lift[:, None, None] * np.eye(matrix.shape[1]))
     return matrix
-
-
-def _not_above(matrix: FloatArray, floor: FloatArray) -> NDArray[np.intp]:
-    """Which symmetric matrices (A, C, C) have an eigenvalue that is not above a floor (A,).
-
-    By Cholesky's factors, in a small part of the time that eigenvalues take.
-    """
-    own = np.eye(matrix.shape[1])
-    found = []
-    for index, (one, least) in enumerate(zip(matrix, floor, strict=True)):
-        try:
-            np.linalg.cholesky(one - least * own)
-        except np.linalg.LinAlgError:
-            found.append(index)
-    return np.array(found, dtype=np.intp)
 
 
 def rigid_cam_force(model: ContactModel, states: NominalStates, torque: float) -> FloatArray:
