@@ -122,7 +122,8 @@ class Hunt:
     eased : bool
         Whether torques were lowered to what part errors leave of a design.
     strongest : str
-        Cam bearing of the design that bears most, where torques were lowered to what it bears.
+        Cam bearing that is tried first: of the design that bears most, where torques were lowered
+        to what it bears, or of the last that bore what is asked for in more space.
     heavy : float
         Mass of the actuator that was too much last, kg.
     fit : Fit

@@ -317,18 +317,24 @@ def _limits(hunt: Hunt) -> Iterator[tuple[str, float]]:
 def _bears(hunt: Hunt, asked: Requirements) -> bool:
     """Whether the equilibrium bears a design out, with what the hunt knows of part errors.
 
-    For hardly any torque where none was stated: a search lowers it as far as it has to.
+    For hardly any torque where none was stated: a search lowers it as far as it has to. The cam
+    bearing that did last time is tried first, else the one that was looked at last: all others are
+    in vain more often than not, and take most of the time.
     """
     any_torque = PEAK in asked.derived
     some = _new(hunt, weaker(asked, LEAST, LEAST) if any_torque else asked)
     some.extra_of, some.fit = hunt.extra_of, hunt.fit
+    some.strongest = hunt.strongest or next(reversed(hunt.extra_of), "")
     try:
         if not any_torque and both_bearable(some) < _NEARLY:
             return False
         found = next(iter(ranked(some, thorough=False)), None)
     except InfeasibleError:
         return False
-    return found is not None and not found.worth[0]
+    if found is None or found.worth[0]:
+        return False
+    hunt.strongest = next((one.cam for one in some.known.values() if one is found), "")
+    return True
 
 
 def _least(hunt: Hunt, asked: Requirements, key: str, limit: float, *, doubtful: bool) -> _Need:

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from cqdd_design.actuator.operating import held_torque
 from cqdd_design.errors import ContactError, GeometryError
 from cqdd_design.gearbox.checks.equilibrium import DUTY_MODEL, ENDLESS
+from cqdd_design.gearbox.checks.heat import BURNT
 from cqdd_design.machine import Machine
 from cqdd_design.machine.carrying import carried_torque, carried_up_to
 from cqdd_design.results import Check, Status
@@ -79,7 +80,7 @@ def headline(evidence: Evidence, lines: Sequence[Check]) -> tuple[Figure, ...]:
         _life(machine, by_id),
         _asked(backlash(evidence), by_id.get("BACKLASH")),
         _asked(efficiency(machine), by_id.get("EFFICIENCY")),
-        _of_line("temperature", "temperature", by_id["THERMAL-RISE"]),
+        _temperature(by_id["THERMAL-RISE"]),
         _asked(mass(machine), by_id.get("MASS")),
     )
 
@@ -91,6 +92,13 @@ def _asked(figure: Figure, line: Check | None) -> Figure:
 
 def _of_line(name: str, title: str, line: Check) -> Figure:
     return Figure(name, title, line.value, line.unit, line.limit, line.status, line.basis)
+
+
+def _temperature(line: Check) -> Figure:
+    title = "temperature"
+    if line.value is not None and line.value > BURNT:
+        title += f" (above {BURNT:g} degC: heat that is too much)"
+    return _of_line("temperature", title, line)
 
 
 def _continuous(evidence: Evidence, by_id: dict[str, Check]) -> Figure:

@@ -214,6 +214,7 @@ def test_under_a_duty_its_heat_decides_and_not_the_continuous_torque(machine: Ma
     held = float(held_torque(actuator, mean / machine.design.reducer.ratio)[0])
     assert figure.value == pytest.approx(held)
     assert held > 1.0
+    assert judged.headline[5].title == "temperature"
     assert "for ever at the duty's mean speed of the motor; not asked for" in figure.basis
     # At a speed that is stated this friction alone is too much: 0 N m says so.
     mapping["requirements"]["continuous_speed"] = "1286 rpm"
@@ -430,6 +431,16 @@ def test_the_shafts_own_bearings_are_judged(machine: Machine, judged: Verdict) -
     own = by_id(paper_input().verdict.lines)["SUPPORT-STATIC"]
     assert own.status == "fail"
     assert own.value == pytest.approx(1270 / 5115, rel=0.02)
+
+
+def test_a_temperature_that_no_part_stands_is_told_as_heat_on_the_first_screen(
+    judged: Verdict,
+) -> None:
+    """At 40 N m for ever the network of cqdd-10 ends beyond 1000 deg C."""
+    figure = next(one for one in judged.headline if one.id == "temperature")
+    assert figure.value is not None
+    assert figure.value > 300.0
+    assert "above 300 degC: heat that is too much" in figure.told
 
 
 def test_a_cam_bearing_that_wears_out_is_told_the_rating_it_needs(judged: Verdict) -> None:

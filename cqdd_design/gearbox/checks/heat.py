@@ -10,7 +10,7 @@ from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.results import Check
 
-_BURNT = 300.0
+BURNT = 300.0
 """Of a part, deg C: beyond it windings, grease and adhesives are no more, and what a network of
 conductances says is a measure of the heat that is too much."""
 
@@ -47,10 +47,8 @@ def rise_check(parts: tuple[WarmPart, ...], ambient: float, heat: float, as_draw
     worst = max(parts, key=used)
     told = ", ".join(f"{one.name} {one.temperature:.0f} of {one.most:g}" for one in parts)
     burnt = ""
-    if max(one.temperature for one in parts) > _BURNT:
-        burnt = (
-            f"; beyond {_BURNT:g} degC that is how much heat is too much, not how warm parts get"
-        )
+    if max(one.temperature for one in parts) > BURNT:
+        burnt = f"; beyond {BURNT:g} degC that is how much heat is too much, not how warm parts get"
     return build_check(
         "THERMAL-RISE",
         worst.temperature,
