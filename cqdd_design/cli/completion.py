@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import csv
 import os
+import re
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
@@ -20,6 +21,8 @@ from cqdd_design.exporting.kinds import KINDS
 _ASKED_BY = "_CQDD_DESIGN_COMPLETE"
 """Variable in which Typer's scripts say which shell asks."""
 _PACKAGE = Path(__file__).parents[1]
+_SPECIAL = re.compile(r"[^\w@%+=:,./-]")
+"""Signs that bash reads as more than themselves."""
 TEMPLATES = ("design", "duty", "motor", "requirements")
 """Kinds of template that `new` writes."""
 _CATALOGUES = {
@@ -67,10 +70,25 @@ def _starting(names: Callable[[], Iterable[str]]) -> Callable[[str], list[str]]:
         begun = incomplete.casefold()
         found = [name for name in names() if name.casefold().startswith(begun)]
         # zsh and fish quote what they insert; bash puts it on the line as it is.
-        bash = os.environ.get(_ASKED_BY, "").endswith("_bash")
-        return [_Offered(name.replace(" ", "\\ ") if bash else name) for name in found]
+        bare = os.environ.get(_ASKED_BY, "").endswith("_bash") and not _within_quotes()
+        return [_Offered(_SPECIAL.sub(r"\\\g<0>", name) if bare else name) for name in found]
 
     return complete
+
+
+def _within_quotes() -> bool:
+    """Whether the word that is typed began with a quotation mark which is still open."""
+    open_mark, escaped = "", False
+    for sign in os.environ.get("COMP_WORDS", ""):
+        if escaped:
+            escaped = False
+        elif sign == "\\" and open_mark != "'":
+            escaped = True
+        elif sign == open_mark:
+            open_mark = ""
+        elif sign in "\"'" and not open_mark:
+            open_mark = sign
+    return bool(open_mark)
 
 
 def _rows(catalogue: str, only: str = "") -> list[str]:

@@ -1,6 +1,8 @@
 """What shells offer after TAB, asked for as their scripts ask."""
 
 import os
+import re
+import shlex
 import subprocess
 import sys
 
@@ -62,6 +64,18 @@ def test_bash_is_offered_commands_designs_and_names(offered) -> None:
     assert "RING-STRESS" in offered("bash", "explain", "ring").split()
     motors = offered("bash", "size", "--motor", "cube").splitlines()
     assert r"CubeMars\ RO100\ KV55" in motors
+
+
+def test_bash_can_run_what_it_is_offered(offered) -> None:
+    """Signs that bash reads as its own are escaped, but for within quotes, where nothing is."""
+    compare = "compare", "knee.toml", "--material"
+    for begun, steel in (("AISI\\ 4140\\ Q", "AISI 4140 Q&T 540C"), ("POM", "POM (acetal)")):
+        lines = offered("bash", *compare, begun).splitlines()
+        assert [steel] in [shlex.split(line) for line in lines]
+        assert not any(re.search(r"(?<!\\)[&() ]", line) for line in lines)
+    for mark in "\"'":
+        assert "AISI 4140 Q&T 540C" in offered("bash", *compare, f"{mark}AISI").splitlines()
+    assert r"POM\ \(acetal\)" in offered("bash", *compare[:2], "'closed'", "--material", "POM")
 
 
 def test_kinds_templates_and_examples_are_offered(offered) -> None:

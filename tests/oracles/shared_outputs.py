@@ -6,7 +6,6 @@ the run have in common; a lock makes the others wait for it meanwhile.
 
 from __future__ import annotations
 
-import fcntl
 import hashlib
 import os
 import pickle
@@ -27,6 +26,11 @@ from cqdd_design.sizing import SizingResult, size
 from cqdd_design.sizing.comparison import compare_with_planetary, cycloid_limits
 from cqdd_design.verdict import judge
 
+try:
+    import fcntl
+except ImportError:  # on Windows each worker that asks meanwhile makes the value itself
+    fcntl = None  # type: ignore[assignment]
+
 PAPER_FILE = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
 
 Made = TypeVar("Made")
@@ -37,11 +41,12 @@ def shared(name: str, make: Callable[[], Made]) -> Made:
     root = Path(os.environ["CQDD_TEST_RUNS"])
     place = root / f"shared-{name}.pickle"
     with (root / f"shared-{name}.lock").open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
+        if fcntl is not None:
+            fcntl.flock(lock, fcntl.LOCK_EX)
         if not place.exists():
-            unfinished = place.with_suffix(".part")
+            unfinished = place.with_suffix(f".{os.getpid()}.part")
             unfinished.write_bytes(pickle.dumps(make()))
-            unfinished.rename(place)
+            unfinished.replace(place)
         found: Made = pickle.loads(place.read_bytes())
     return found
 

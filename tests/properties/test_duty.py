@@ -1,7 +1,6 @@
 """A duty over time: the file, the load cases it becomes, and the heat of its cycle."""
 
 import math
-import resource
 from pathlib import Path
 
 import numpy as np
@@ -136,6 +135,7 @@ def test_many_rows_take_little_memory(tmp_path):
         stream.write(HEAD + "\n")
         for second in range(2_500):
             stream.write(block.replace("%d", str(second)))
+    resource = pytest.importorskip("resource")
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     log = read_duty(path)
     cases = load_cases(log)

@@ -385,6 +385,24 @@ def test_the_blank_holds_the_start_hole_and_a_border_to_clamp(paper, parts):
         assert 1e3 * BORDER < beyond < 1e3 * BORDER + 3.0, "half of a start hole more, rounded"
 
 
+@pytest.mark.parametrize("lobes", [9, 10, 28])
+def test_no_clamp_stands_where_the_wire_runs(paper, lobes):
+    """A start hole beside a disc is nearer to the axis than the lobes are."""
+    change = {"requirements.ratio": lobes, "reducer.ratio": lobes}
+    if lobes != 10:
+        change |= {"reducer.eccentricity": 1.6e-3 * 10 / lobes, "reducer.ring_pin_diameter": 3e-3}
+    design = paper.replacing(change)
+    for flat in flat_parts(resolve(design)):
+        told = program(flat, design)
+        side, free = map(int, re.search(r"BLANK (\d+) X .* OUTSIDE DIA (\d+)", told).groups())
+        reached = 2e3 * max(math.hypot(x, y) for x, y in flat.contours[0].sample(1e-6))
+        wire = 2e3 * design.edm.wire_offset
+        assert reached + 2.0 * wire < free
+        assert abs(side - free - 2e3 * BORDER) <= 1.0, "rounded up"
+        x, y = re.findall(r"^G00 X(\S+) Y(\S+)$", told, flags=re.M)[-1]
+        assert free > 2.0 * math.hypot(float(x), float(y))
+
+
 def test_a_missing_cut_and_the_wrong_part_are_refused(text, paper, parts):
     with pytest.raises(ReadBackError, match="7 cuts for 2 contours"):
         check_program(text, parts[1], paper.edm)

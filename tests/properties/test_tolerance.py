@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import resource
 import sys
 import threading
 from dataclasses import replace
@@ -234,6 +233,7 @@ def test_statistics_are_those_of_the_values() -> None:
 def test_memory_stays_flat() -> None:
     ensemble = make_ensemble(paper(), angles=44)
     run_ensemble(ensemble, 250, sensitivity=False)
+    resource = pytest.importorskip("resource")
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     run_ensemble(ensemble, 2000, sensitivity=False)
     after = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss

@@ -27,11 +27,13 @@ help, "Offset page" of wire EDM; BobCAD-CAM help, "Wire EDM 4 axis skim cut para
 
 from __future__ import annotations
 
+import math
 import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from cqdd_design.catalog.printing import printed_materials
 from cqdd_design.exporting.edm.begin import begun, tab_on
 from cqdd_design.exporting.edm.dxf import contour_fit
 from cqdd_design.exporting.edm.flat_parts import FlatPart, flat_parts, seats_of
@@ -40,6 +42,7 @@ from cqdd_design.exporting.edm.passes import (
     WirePass,
     blank_side,
     contour_times,
+    cut_radius,
     minutes,
     wire_passes,
 )
@@ -186,13 +189,13 @@ def _heading(
 ) -> list[str]:
     edm, fit = design.edm, contour_fit(flat)
     whole = sum(contour_times(flat, len(passes)))
-    side = _MM * blank_side(path)
+    side, free = (math.ceil(_MM * one) for one in (blank_side(path), 2.0 * cut_radius(path)))
     return [
         f"PART {design.file_name}-{flat.label}, CUT {flat.quantity}",
         *flat.remarks,
         f"MATERIAL {flat.material}, THICKNESS {_MM * flat.thickness:g} MM",
-        f"BLANK {side:.0f} X {side:.0f} MM ABOUT THE PART AXIS AT LEAST, CLAMPED OUTSIDE DIA "
-        f"{2.0 * _MM * (abs(path.start) + 0.5 * path.start_diameter):.0f}",
+        *(["IT DOES NOT CONDUCT: NO WIRE CUTS IT"] if flat.material in printed_materials() else []),
+        f"BLANK {side} X {side} MM ABOUT THE PART AXIS AT LEAST, CLAMPED OUTSIDE DIA {free}",
         "UNITS MM, ABSOLUTE, ORIGIN ON THE PART AXIS, ARC CENTRES I J FROM EACH ARC START",
         f"WIRE DIA {_MM * edm.wire_diameter:g}, SPARK GAP {_MM * edm.spark_gap:g} ON THE LAST PASS",
         "OFFSETS BELOW ARE WIRE RADIUS, THAT GAP AND WHAT LATER PASSES TAKE: REPLACE THEM BY THOSE",

@@ -121,9 +121,19 @@ def contour_times(flat: FlatPart, passes: int) -> tuple[float, ...]:
     return tuple(cutting_time(one.length(), flat.thickness, passes) for one in flat.contours)
 
 
+def cut_radius(outer: WirePath) -> float:
+    """How far from the part's axis the start hole and the cut round the part reach, m.
+
+    The rough cut stands off by what skim cuts take, and is as wide again on its other side.
+    """
+    hole = abs(outer.start) + 0.5 * outer.start_diameter
+    kerf = float(np.abs(outer.contour.points @ [1.0, 1.0j]).max()) + outer.offset + sum(SKIMS)
+    return max(hole, kerf)
+
+
 def blank_side(outer: WirePath) -> float:
-    """Side of the square blank of a part, m: its start hole is inside, and a border to clamp."""
-    return 2.0 * (abs(outer.start) + 0.5 * outer.start_diameter + BORDER)
+    """Side of the square blank of a part, m: all that is cut is inside, and a border to clamp."""
+    return 2.0 * (cut_radius(outer) + BORDER)
 
 
 def minutes(seconds: float) -> str:

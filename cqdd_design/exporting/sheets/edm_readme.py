@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import textwrap
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
@@ -170,9 +171,9 @@ def _passes(facts: CutFacts, options: ExportOptions) -> str:
 def _blanks(parts: Sequence[CutFacts]) -> list[str]:
     said = []
     for facts in parts:
-        side, hours = _MM * facts.blank, minutes(sum(facts.times)).lower()
+        side, hours = math.ceil(_MM * facts.blank), minutes(sum(facts.times)).lower()
         said.append(
-            f"{facts.flat.label}: square blank of {side:.0f} mm at least about the axis of the "
+            f"{facts.flat.label}: square blank of {side} mm at least about the axis of the "
             f"part, {_MM * BORDER:g} mm of it outside the cuts to clamp on; about {hours} a piece."
         )
     return [
