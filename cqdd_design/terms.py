@@ -9,6 +9,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+AMPLE, AMPLE_MARGIN = "ample", 1000.0
+"""What a margin is called that is so great that its digits tell nothing."""
+
 #: Last part of a key, and its unit; of two that fit, the longer one.
 UNITS = {
     "Nm_per_arcmin": "N*m/arcmin",

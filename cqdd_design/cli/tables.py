@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from cqdd_design.cli.fitting import INDENT, WIDTH, Columns, folded_columns, wrapped
-from cqdd_design.terms import hardly
+from cqdd_design.terms import AMPLE, AMPLE_MARGIN, hardly
 
 if TYPE_CHECKING:
     from cqdd_design.results import Check
@@ -120,7 +120,7 @@ def checks_table(checks: Sequence[Check]) -> str:
     rows = []
     for check in checks:
         relation = "<=" if check.sense == "max" else ">="
-        margin = f"{check.margin:.3g}" if abs(check.margin) < 100.0 else "large"
+        margin = f"{check.margin:.3g}" if abs(check.margin) < AMPLE_MARGIN else AMPLE
         margin = margin if check.known else "?"
         rows.append(
             [

@@ -122,8 +122,8 @@ def magnetic_circuit(
     return [
         piece("motor stator", stator, STATOR_MATERIAL, _STATOR, f"{row.name}, stator",
               mass=stator_mass),
-        piece(ROTOR, rotor, MAGNET_MATERIAL, _ROTOR, f"{row.name}, ring of magnets", body=SHAFT,
-              mass=rotor_mass),
+        piece(ROTOR, rotor, MAGNET_MATERIAL, _ROTOR,
+              f"{row.name}, ring of magnets with its back iron", body=SHAFT, mass=rotor_mass),
     ]  # fmt: skip
 
 

@@ -131,7 +131,7 @@ def _housing(machine: Machine, plastic: Material) -> Check:
         f"{_METAL} for housing.material"
         if known
         else f"{_METAL} for housing.material, or a plastic whose creep the catalogue has "
-        "(`cqdd-design catalog materials`)",
+        "(see cqdd-design catalog materials)",
         basis=plastic.creep_source or f"modulus of {plastic.name}, without its creep",
     )
 
@@ -148,7 +148,7 @@ def _screws(machine: Machine, plastic: Material) -> Check:
             name, None, SLIP_SAFETY,
             f"what screws keep of their preload is not known: {plastic.name} has no creep in the "
             "catalogue",
-            f"{remedy} or a plastic whose creep it has (`cqdd-design catalog materials`), and "
+            f"{remedy} or a plastic whose creep it has (see cqdd-design catalog materials), and "
             "until then tighten screws again",
         )  # fmt: skip
     try:

@@ -97,7 +97,7 @@ def _of_line(name: str, title: str, line: Check) -> Figure:
 def _temperature(line: Check) -> Figure:
     title = "temperature"
     if line.value is not None and line.value > BURNT:
-        title += f" (above {BURNT:g} degC: heat that is too much)"
+        title += " (no part stands it: too much heat)"
     return _of_line("temperature", title, line)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 import re
+from pathlib import Path
 from xml.dom import minidom
 
 import numpy as np
@@ -13,10 +14,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from cqdd_design.catalog import find_bearing
-from cqdd_design.design import Design
+from cqdd_design.cli.tables import checks_table
+from cqdd_design.design import Design, load_design
 from cqdd_design.gearbox import CHECK_GUIDE
 from cqdd_design.gearbox.disc_forces import disc_forces
 from cqdd_design.geometry.contours import ArcContour, Circle
+from cqdd_design.machine import resolve
 from cqdd_design.report.drawings.front_view import front_view
 from cqdd_design.report.drawings.half_section import half_section, reach_along_x
 from cqdd_design.report.drawings.outlines import Outlines
@@ -142,6 +145,21 @@ def test_a_narrow_failure_does_not_read_as_one() -> None:
     assert margin_text(check(100.02, 100.0)) == "0.9998"
     assert margin_text(check(100.0, 100.0)) == "1"
     assert margin_text(check(1e-9, 100.0)) == "ample"
+
+
+@pytest.mark.parametrize(("value", "told"), [(0.6, "167"), (0.05, "ample")])
+def test_the_terminal_and_the_report_call_a_great_margin_the_same(value: float, told: str) -> None:
+    one = check(value, 100.0)
+    assert margin_text(one) == told
+    assert checks_table([one]).split()[-1] == told
+
+
+def test_a_needle_bearing_on_its_inner_ring_is_named_in_two_lines(paper_design_file: Path) -> None:
+    """27 signs in one were cut at the edge of the drawing."""
+    machine = resolve(load_design(paper_design_file.with_name("printed-13.toml")))
+    drawn = half_section(Outlines.from_design(machine.design, machine.cam)).body
+    assert "needle HK1522<" in drawn
+    assert "on IR12x15x22.5, cam bearing<" in drawn
 
 
 def test_signs_and_sentences() -> None:

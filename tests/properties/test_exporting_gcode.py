@@ -385,6 +385,13 @@ def test_the_blank_holds_the_start_hole_and_a_border_to_clamp(paper, parts):
         assert 1e3 * BORDER < beyond < 1e3 * BORDER + 3.0, "half of a start hole more, rounded"
 
 
+def test_a_program_for_a_plastic_says_that_no_wire_cuts_it(paper):
+    for material, said in (("PC-CF FDM along layers", True), ("AISI 4140 Q&T 540C", False)):
+        design = paper.replacing({"reducer.disc_material": material})
+        disc = flat_parts(resolve(design))[0]
+        assert ("NO WIRE CUTS IT" in program(disc, design)) is said
+
+
 @pytest.mark.parametrize("lobes", [9, 10, 28])
 def test_no_clamp_stands_where_the_wire_runs(paper, lobes):
     """A start hole beside a disc is nearer to the axis than the lobes are."""

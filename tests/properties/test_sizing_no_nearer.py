@@ -192,11 +192,13 @@ def test_where_nothing_fits_nothing_is_looked_for(monkeypatch):
     [
         ({}, True),
         # As good as the same, more, or in less space.
-        ({"peak_torque": "44.8 N*m"}, True),
+        ({"peak_torque": "44.97 N*m"}, True),
+        # At ratio 16 10.2 N m were in vain, and 10.17 were not.
+        ({"peak_torque": "44.87 N*m"}, False),
         ({"peak_torque": "60 N*m", "length": "7 mm"}, True),
         ({"peak_torque": "44.5 N*m"}, False),
-        ({"continuous_torque": "5.9 N*m"}, False),
-        ({"length": "8.1 mm"}, False),
+        ({"continuous_torque": "5.98 N*m"}, False),
+        ({"length": "8.02 mm"}, False),
         ({"outer_diameter": "51 mm"}, False),
         # Anything else may be easier.
         ({"ratio": 17}, False),

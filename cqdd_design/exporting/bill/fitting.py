@@ -62,7 +62,7 @@ def _shims(machine: Machine) -> dict[str, str]:
         notes[name] = (
             f"{stack.kit.told}: measure the room, {room} mm, and take the thickest pack that "
             f"leaves {least:.2f} mm: the play is then {least:.2f} to {most:.2f} mm; drawn "
-            f"{_MM * stack.shims.pack:g} mm"
+            f"{_MM * stack.shims.pack:g} mm; a price is that of all of them"
         )
     return notes
 
@@ -160,7 +160,8 @@ def _encoder(motor: MotorEnd, shaft_end: float) -> dict[str, str]:
         "encoder magnet": f"bonded {place} with {ROTOR_COMPOUND.name}",
         "encoder board": (
             f"{_MM * gap:g} mm from magnet to sensor; the sensor stands in the middle of a round "
-            f"board of {_board(motor)}, on three screws (outline in STEP)"
+            f"board of {_board(motor)}, on three screws, bought with it or made to the outline in "
+            "STEP"
         ),
     }
 
@@ -175,8 +176,9 @@ def _ring_encoder(motor: MotorEnd) -> dict[str, str]:
         ),
         "encoder board": (
             f"sensor at half the magnet's height, the board's edge {_MM * gap:g} mm beside it; a "
-            f"round board of {_board(motor)}, with a hole of {_MM * hole:g} mm, on three screws "
-            "(outline in STEP); trim and calibrate the sensor for its place beside the shaft"
+            f"round board of {_board(motor)}, with a hole of {_MM * hole:g} mm, on three screws, "
+            "bought with it or made to the outline in STEP; trim and calibrate the sensor for its "
+            "place beside the shaft"
         ),
     }
 

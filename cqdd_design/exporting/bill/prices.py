@@ -123,7 +123,7 @@ def _places(path: Path, headings: list[str]) -> dict[str, int]:
     missing = [name for name in COLUMNS[:3] if name not in headings]
     if missing:
         raise UsageError(
-            f"{path} has no column '{missing[0]}'; its first line is {','.join(COLUMNS)}."
+            f"{path} has no column '{missing[0]}'; its first line has to be {','.join(COLUMNS)}."
         )
     return {name: headings.index(name) for name in COLUMNS if name in headings}
 

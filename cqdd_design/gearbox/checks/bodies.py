@@ -94,7 +94,7 @@ def _creep(design: Design, strength: BodyStrength, cures: Cures) -> tuple[Check,
             100.0 * DESIGN_STRAIN,
             told,
             f"hold no torque for long, {less}or choose a plastic whose creep the catalogue has "
-            "(`cqdd-design catalog materials`), or a metal",
+            "(see cqdd-design catalog materials), or a metal",
             basis=material.creep_source or f"modulus of {material.name}, without its creep",
         ),
     )

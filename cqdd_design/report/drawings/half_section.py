@@ -317,7 +317,13 @@ class _Section:
         if pins.sleeve_diameter > 0.0:
             runs_in = f"in sleeves of {millimetres(pins.sleeve_diameter)}"
             runs_in += "" if pins.sleeve == "plain" else " on needles"
-        long_name = len(bearing.designation) > _LONG_DESIGNATION
+        cam = f"cam bearing {bearing.designation}", f"{sizes}{THIN}mm"
+        if len(bearing.designation) > _LONG_DESIGNATION:
+            cam = bearing.designation, f"cam bearing, {sizes}{THIN}mm"
+        on = bearing.designation.partition(" on ")
+        if on[1]:
+            # A needle bearing with its inner ring has a name too long for a line.
+            cam = on[0], f"on {on[2]}, cam bearing"
         in_disc = 0.5 * (self.hole(last)[1] + self.tip(last))
         right = [
             Leader(self.at(0.8 * self.pack[1], 0.97 * self.outer), "ring", reducer.ring_material),
@@ -336,8 +342,7 @@ class _Section:
             ),
             Leader(
                 self.at(self.middles[last] + 0.3 * bearing.width, self.throws[last][0] + middle),
-                bearing.designation if long_name else f"cam bearing {bearing.designation}",
-                f"cam bearing, {sizes}{THIN}mm" if long_name else f"{sizes}{THIN}mm",
+                *cam,
             ),
             Leader(
                 self.at(self.half + 0.6 * self.plate, 0.6 * self.core),

@@ -10,6 +10,7 @@ from cqdd_design.report.ink.mathml import mathml
 from cqdd_design.report.ink.numbers import MINUS, TIMES, significant, superscript, with_unit
 from cqdd_design.report.ink.page import Values
 from cqdd_design.results import Check, Status, worst_status
+from cqdd_design.terms import AMPLE, AMPLE_MARGIN
 
 #: Headings by the first part of a check's identifier, in the order of the report.
 _HEADINGS = {
@@ -39,7 +40,6 @@ WORDS: dict[Status, str] = {
     "fail": "fails",
     "unknown": "not known",
 }
-_MANY = 1000.0
 
 
 def check_row(check: Check) -> Values:
@@ -77,8 +77,8 @@ def margin_text(check: Check) -> str:
     """
     if not check.known:
         return "not known"
-    if abs(check.margin) >= _MANY:
-        return "ample"
+    if abs(check.margin) >= AMPLE_MARGIN:
+        return AMPLE
     for digits in (3, 4, 5, 6):
         shown = significant(check.margin, digits)
         if check.satisfied or shown != "1":
