@@ -113,7 +113,7 @@ def fit_limits(zone: str, diameter: float) -> FitLimits:
     """
     table = fit_zones()
     if zone not in table:
-        raise CatalogError(f"no ISO 286 zone '{zone}'{did_you_mean(zone, table)}.")
+        raise CatalogError(f"no ISO 286 zone '{zone}'{did_you_mean(zone, table) or '.'}")
     for limits in table[zone]:
         if limits.over < diameter <= limits.up_to + 1e-12:
             return limits

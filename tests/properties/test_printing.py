@@ -223,6 +223,8 @@ def test_the_readme_says_what_was_done_and_what_is_left(design, machine, every):
     assert "nothing measured yet" in text
     assert "8 x M4, 8.5 mm deep: heat-set insert M4 x 8.1 in holes of 5.6 mm" in text
     assert "BELOW 0.84 mm" in text
+    assert "Seats come out at their nominal size with no stock on them" in text
+    assert "the bearing nut's, are cut on a lathe and are not in these files" in text
     assert "it keeps strength and shape up to 110 degc" in text.lower()
     assert "How it creeps is not known: hold no torque for long" in text
     assert "bores and pins of 5, 19, 21 mm" in text

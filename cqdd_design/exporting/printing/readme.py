@@ -29,6 +29,14 @@ def readme_text(design: Design, parts: Sequence[PrintedPart], test: Coupon | Non
         "and 3MF of a part are compensated as below: send them as they are, without a scale or a "
         "hole compensation of the slicer on top. Drawn sizes are those of the STEP of the machine."
     )
+    lines += [""]
+    lines += _wrapped(
+        "Seats come out at their nominal size with no stock on them. A printer misses the zones of "
+        "the fits below: what is left of a hole is reamed, of an outside turned; what is too small "
+        "by then goes in with retaining compound, or is printed again by an outside_error (or a "
+        "hole_error) that leaves stock, see the test coupon. Threads that no insert takes, such "
+        "as the bearing nut's, are cut on a lathe and are not in these files."
+    )
     for one in parts:
         lines += ["", *_heading(f"{design.file_name}, {one.drawn.name}"), *_part(one)]
     lines += ["", *_heading("Test coupon"), *_coupon(design, test)]
@@ -77,9 +85,7 @@ def _part(one: PrintedPart) -> Iterator[str]:
             "How it creeps is not known: hold no torque for long, and tighten screws again.", "- "
         )
     for fit in part.fits:
-        yield from _wrapped(
-            f"Fit: {fit_label(fit)}; what the printer leaves is reamed or pressed.", "- "
-        )
+        yield from _wrapped(f"Fit: {fit_label(fit)}; finished as told above.", "- ")
 
 
 def _coupon(design: Design, test: Coupon | None) -> Iterator[str]:

@@ -189,6 +189,8 @@ class EndPlan:
                 # A plain hole goes through its wall, which the view does not show either.
                 how = "through, " if all(isinstance(one, PlainHole) for one in group) else ""
                 rows.append((Words(f"{how}from the far side"),))
+            elif any(isinstance(one, Counterbore) for one in hidden):
+                rows.append((Words("counterbore from the far side"),))
             target = centre + 0.5 * self.factor * size * up
             blocks.append(Block(target, tuple(rows)))
         return blocks
