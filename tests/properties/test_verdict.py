@@ -436,7 +436,7 @@ def test_the_shafts_own_bearings_are_judged(machine: Machine, judged: Verdict) -
 def test_a_temperature_that_no_part_stands_is_told_as_heat_on_the_first_screen(
     judged: Verdict,
 ) -> None:
-    """At 40 N m for ever the network of cqdd-10 ends beyond 1000 deg C."""
+    """At 14 N m for ever the network of reference-s ends beyond 1000 deg C."""
     figure = next(one for one in judged.headline if one.id == "temperature")
     assert figure.value is not None
     assert figure.value > 300.0
