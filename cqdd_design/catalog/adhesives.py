@@ -63,6 +63,12 @@ class RetainingCompound:
         return 1.0 - 0.5 * beyond / (self.half_at - self.full_until)
 
 
+NUT_LOCKING = (
+    "A medium-strength threadlocker (such as LOCTITE 243, which hand tools undo) goes on the "
+    "thread, none on the bearing."
+)
+"""How a nut without a tab washer is kept (Henkel, LOCTITE 243 technical data sheet)."""
+
 ROTOR_COMPOUND = RetainingCompound(
     name="LOCTITE 648",
     strength=25e6,

@@ -55,6 +55,9 @@ class Bearing:
         needles run on the shaft, and of other kinds.
     source : str
         Where the row comes from; computed ratings say so.
+    chamfer : float or None
+        Least chamfer of its rings, r_s min, m (ISO 15, diameter series 7 among the others); None
+        where the source does not give it.
     """
 
     designation: str = column("designation")
@@ -67,6 +70,18 @@ class Bearing:
     mass: float | None = column("mass_kg")
     source: str = column("source")
     raceway_diameter: float | None = column("raceway_mm", 1e-3)
+    chamfer: float | None = column("r_min_mm", 1e-3)
+
+    @property
+    def largest_fillet(self) -> float:
+        """Of a corner into which a ring goes, m: the least chamfer that the ring may have."""
+        return self.chamfer or least_chamfer(self.bore_diameter)
+
+    @property
+    def largest_chamfer(self) -> float:
+        """Beyond which a shoulder has to reach to meet the face of a ring, m."""
+        unknown = _CROSSED if self.kind == "crossed roller" else least_chamfer(self.bore_diameter)
+        return largest_chamfer(self.chamfer or unknown, self.bore_diameter)
 
     @property
     def needles(self) -> NeedleSet:
@@ -110,10 +125,14 @@ _CHAMFERS = ((8e-3, 0.15e-3), (10e-3, 0.2e-3))
 _CHAMFER = 0.3e-3
 
 
-def least_chamfer(bore: float) -> float:
-    """Least chamfer of ball bearings of a bore, m: of diameter series 8 (ISO 15), the smallest.
+_CROSSED = 1e-3
+"""Least chamfer of crossed rollers whose source gives none, at most: of the widest section, m."""
 
-    No fillet beside a seat may be larger, and a shoulder bears only beyond it.
+
+def least_chamfer(bore: float) -> float:
+    """Least chamfer of ball bearings of a bore, m: of diameter series 8 (ISO 15).
+
+    For bearings whose own is not known.
 
     Examples
     --------
@@ -121,6 +140,31 @@ def least_chamfer(bore: float) -> float:
     [0.15, 0.2, 0.3]
     """
     return next((chamfer for below, chamfer in _CHAMFERS if bore < below - 1e-9), _CHAMFER)
+
+
+_LARGEST = (
+    (0.05, ((math.inf, 0.1),)), (0.08, ((math.inf, 0.16),)), (0.1, ((math.inf, 0.2),)),
+    (0.15, ((math.inf, 0.3),)), (0.2, ((math.inf, 0.5),)), (0.3, ((40, 0.6), (math.inf, 0.8))),
+    (0.6, ((40, 1.0), (math.inf, 1.3))), (1.0, ((50, 1.5), (math.inf, 1.9))),
+    (1.1, ((120, 2.0), (math.inf, 2.5))), (1.5, ((120, 2.3), (math.inf, 3.0))),
+    (2.0, ((80, 3.0), (220, 3.5), (math.inf, 3.8))), (2.1, ((280, 4.0), (math.inf, 4.5))),
+    (3.0, ((280, 5.0), (math.inf, 5.5))), (4.0, ((math.inf, 6.5),)), (5.0, ((math.inf, 8.0),)),
+)  # fmt: skip
+"""Least chamfer, and for bores up to so much the largest in the radial direction; all in mm."""
+
+
+def largest_chamfer(least: float, bore: float) -> float:
+    """Largest chamfer, along the radius, of a radial bearing whose least chamfer is given, m.
+
+    ISO 582:1995, table 1, as the ISB catalogue prints it.
+
+    Examples
+    --------
+    >>> [round(1e3 * largest_chamfer(one, 30e-3), 2) for one in (0.1e-3, 0.3e-3, 0.6e-3)]
+    [0.2, 0.6, 1.0]
+    """
+    limits = next(row for upper, row in _LARGEST if 1e3 * least <= upper + 1e-9)
+    return 1e-3 * next(most for up_to, most in limits if 1e3 * bore <= up_to + 1e-9)
 
 
 def width_tolerance(bore: float) -> float:

@@ -70,7 +70,7 @@ _UNITS = {
     "limit": ("MPa_m_s", 1e-6),
 }
 _LENGTH_ENDINGS = ("diameter", "diameter_max", "diameter_min", "length", "width", "height", "depth")
-_LENGTHS = {"socket_size"}
+_LENGTHS = {"socket_size", "chamfer"}
 _OF_DESIGNS = {"stated", "stated_in", "based_on"}
 """Fields of a motor that a design describes; no row of a catalogue has them."""
 

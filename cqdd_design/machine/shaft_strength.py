@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from cqdd_design.catalog.bearings import least_chamfer, shaft_material
+from cqdd_design.catalog.bearings import shaft_material
 from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.errors import CatalogError
 from cqdd_design.gearbox.checks.allowables import shaft_limit_fatigue
@@ -105,12 +105,11 @@ def shaft_steps(pack: PackLayout, shaft: ShaftLayout) -> tuple[Step, ...]:
         for one in shaft_features(pack, shaft, None, 0.0)
         if isinstance(one, Undercut)
     }
-    journal = 0.5 * shaft.support.bearing.bore_diameter
     last, found = len(layers) - 2, []
     for place, (below, above) in enumerate(pairwise(layers)):
         thin, thick = sorted((below, above), key=lambda one: _outside(one).radius)
         at_seat = place in (0, last)
-        seat = journal if at_seat else 0.5 * pack.cam.bearing.bore_diameter
+        bearing = shaft.support.bearing if at_seat else pack.cam.bearing
         name = "shoulder of the lower bearing" if place == 0 else "shoulder of the upper bearing"
         relief = reliefs.get(round(above.bottom, 9))
         found.append(
@@ -120,7 +119,7 @@ def shaft_steps(pack: PackLayout, shaft: ShaftLayout) -> tuple[Step, ...]:
                 _outside(thin).radius - (relief.depth if relief else 0.0),
                 shaft.bore_radius,
                 _outside(thick).radius + float(np.hypot(*_outside(thick).centre)),
-                relief.radius if relief else least_chamfer(2.0 * seat),
+                relief.radius if relief else bearing.largest_fillet,
             )
         )
     if pack.disc_count > 2:

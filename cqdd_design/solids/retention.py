@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cqdd_design.catalog.bearings import Bearing
 from cqdd_design.geometry.contours import Circle, ComplexArray, PlanarPart
 from cqdd_design.solids.counterweights import NAMES as WEIGHTS
 from cqdd_design.solids.features.zones import DISC_BORE, PRESSED_CAM
@@ -94,13 +95,13 @@ class Retained:
 
     Attributes
     ----------
-    bore : float
-        Of a rolling bearing, m; 0 of other parts.
+    bearing : Bearing or None
+        What it is, of a rolling bearing on the axis.
     up, down : Stop
     """
 
     name: str
-    bore: float
+    bearing: Bearing | None
     up: Stop
     down: Stop
 
@@ -135,14 +136,16 @@ def retention(parts: Sequence[Part], layout: Layout) -> tuple[Retained, ...]:
         for i, found in enumerate(told):
             found.append(_stop(i, every, groups, ways[i], stops, steps))
     return tuple(
-        Retained(one.name, _bore(one), *found) for one, found in zip(every, told, strict=True)
+        Retained(one.name, _bearing(one, layout), *found)
+        for one, found in zip(every, told, strict=True)
     )
 
 
-def _bore(station: Station) -> float:
-    bought = station.part.source == "buy" and station.part.name.endswith("bearing")
-    rolling = bought and not station.off_axis
-    return 2.0 * min(span.inner for span in station.spans) if rolling else 0.0
+def _bearing(station: Station, layout: Layout) -> Bearing | None:
+    seats = {"shaft bearing": layout.shaft.support, "output bearing": layout.carrier.output}
+    chosen = None if station.off_axis else seats.get(station.part.name)
+    # A bush is made with the edges that its seats need.
+    return None if chosen is None or chosen.source == "bush" else chosen.bearing
 
 
 def _fastened(every: Sequence[Station], layout: Layout) -> tuple[list[int], list[str]]:

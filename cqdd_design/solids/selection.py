@@ -107,7 +107,8 @@ def support_bearing(
     most_bore : float
         Diameter of the shaft's shoulder, m.
     least_step : float
-        By how much the journal must be below the shoulder, on the diameter, m.
+        By how much the journal must be below the shoulder, on the diameter, m; the ring's chamfer
+        may need more.
     most_outer_diameter : float
         Room in the carrier plate, m.
     nested_diameter : float
@@ -123,7 +124,7 @@ def support_bearing(
         for row in bearings().values()
         if row.kind == "ball"
         and row.static_rating is not None
-        and row.bore_diameter <= most_bore - least_step + 1e-9
+        and row.bore_diameter <= most_bore - max(least_step, 2.0 * row.largest_chamfer) + 1e-9
         and row.outer_diameter <= most_outer_diameter + 1e-9
         and row.width <= 0.9 * row.bore_diameter
     ]
@@ -248,6 +249,7 @@ def _made(name: str, bore: float, outer: float, width: float, source: str) -> Ch
     made = Bearing(
         name, "ball", bore, outer, width,
         dynamic_rating=None, static_rating=None, mass=None, source=said, raceway_diameter=None,
+        chamfer=None,
     )  # fmt: skip
     return ChosenBearing(made, source)
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from cqdd_design.catalog.bearings import least_chamfer
+from cqdd_design.catalog.bearings import Bearing
 from cqdd_design.errors import CatalogError, DesignError, GeometryError
-from cqdd_design.gearbox.checks.allowables import LEAST_WALL_BETWEEN_HOLES, SHOULDER_SHARE
+from cqdd_design.gearbox.checks.allowables import LEAST_WALL_BETWEEN_HOLES
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.machine import Machine
 from cqdd_design.machine.heat_nodes import by_node
@@ -59,23 +59,24 @@ def _by_faces(table: tuple[Retained, ...]) -> int:
 
 
 def _shoulder(table: tuple[Retained, ...]) -> Check:
-    every: list[tuple[float, Retained, Stop]] = [
-        (stop.face / least_chamfer(row.bore), row, stop)
+    every: list[tuple[Bearing, Retained, Stop]] = [
+        (row.bearing, row, stop)
         for row in table
-        if row.bore
+        if row.bearing is not None
         for stop in (row.up, row.down)
         if stop.face > 0.0
     ]
     if not every:
         told = "no bearing stands on a shoulder"
-        return build_check("RETENTION-SHOULDER", None, SHOULDER_SHARE, told, "see RETENTION-HELD")
-    share, row, stop = min(every, key=lambda one: one[0])
+        return build_check("RETENTION-SHOULDER", None, None, told, "see RETENTION-HELD")
+    bearing, row, stop = min(every, key=lambda one: one[2].face / one[0].largest_chamfer)
+    least, largest = bearing.largest_fillet, bearing.largest_chamfer
     return build_check(
         "RETENTION-SHOULDER",
-        share,
-        SHOULDER_SHARE,
-        f"{row.name} on {stop.by}: {1e3 * stop.face:.3g} mm, chamfer of the bearing "
-        f"{1e3 * least_chamfer(row.bore):.3g} mm",
+        stop.face / least,
+        largest / least,
+        f"{row.name} on {stop.by}: {1e3 * stop.face:.3g} mm; chamfer of the {bearing.designation} "
+        f"{1e3 * least:.3g} to {1e3 * largest:.3g} mm",
         "a cam bearing with a larger bore, or less eccentricity, leaves higher shoulders",
     )
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
 from cqdd_design.catalog import bearings, motors
@@ -11,7 +13,9 @@ from cqdd_design.gearbox.checks.allowables import LIGAMENT, RING_WALL
 from cqdd_design.geometry.scale import largest_ring, millimetre_unit, ring_within_rotor
 from cqdd_design.machine import resolve
 from cqdd_design.machine.motor_standing import motor_standing, room_round_motor
+from cqdd_design.machine.set_heights import set_heights
 from cqdd_design.solids.motor_rules import undrawn_sizes
+from cqdd_design.solids.stations import stations
 
 LEAST_RING, MOST_RING = 45e-3, 150e-3
 
@@ -79,3 +83,42 @@ def test_room_that_is_not_used_is_told(paper: Design) -> None:
     assert "this one would, and the machine be shorter, but that is not drawn." in motor_standing(
         machine
     )
+
+
+@pytest.mark.parametrize(
+    ("change", "carrier"),
+    [({}, "rotor bell"), ({"motor": {"name": "CubeMars RI100 KV105"}}, "rotor hub")],
+)
+def test_rotor_and_magnet_are_set_from_a_face_that_both_sheets_have(
+    paper: Design, change: dict[str, object], carrier: str
+) -> None:
+    machine = resolve(paper.replacing(change))
+    motor, parts = machine.layout.motor_end, {one.name: one for one in machine.parts}
+    assert motor is not None
+    # The face between the two, as the parts that meet there are drawn.
+    face = parts["motor cover"].shape.top
+    assert motor.joint == pytest.approx(face)
+    rotor, encoder = set_heights(machine)
+    hub = 1e3 * (face - parts[carrier].shape.bottom)
+    assert f"No shoulder places the {carrier} on the shaft." in rotor
+    assert f"its hub's lower face {hub:.4g} \u00b10.1 mm from" in rotor
+    numbers = [float(one) for one in re.findall(r"([0-9.]+) mm as drawn", encoder)]
+    spans = {one.name: one.spans for one in stations(machine.parts)}
+    sensor = max(span.top for span in spans["encoder board"])
+    magnet = min(span.bottom for span in spans["encoder magnet"])
+    assert numbers == pytest.approx([1e3 * (face - sensor), 1e3 * (face - magnet)], abs=0.01)
+    assert "the ams AS5047P reads from 0.5 to 1.8 mm, drawn 1 mm" in encoder
+    notes = AssemblyFacts(machine).notes()
+    assert rotor in notes
+    assert encoder in notes
+
+
+def test_a_motor_that_is_not_drawn_has_nothing_to_set(paper: Design) -> None:
+    assert set_heights(resolve(paper.replacing({"motor": {"name": "CubeMars R100 KV90"}}))) == []
+
+
+def test_the_bearing_nut_is_tightened_and_locked(paper: Design) -> None:
+    machine = resolve(paper)
+    (said,) = (one for one in AssemblyFacts(machine).notes() if one.startswith("Bearing nut"))
+    assert "M49.5 x 0.75" in said
+    assert "threadlocker" in said

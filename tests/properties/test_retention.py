@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cqdd_design.catalog.bearings import least_chamfer
+from cqdd_design.catalog.bearings import find_bearing, least_chamfer
 from cqdd_design.design import Design, load_design
 from cqdd_design.geometry.contours import PlanarPart
 from cqdd_design.machine import Machine, resolve
@@ -18,6 +18,7 @@ from cqdd_design.solids.part import Part, placed
 from cqdd_design.solids.parts import build_parts
 from cqdd_design.solids.poses import HOUSING, transform
 from cqdd_design.solids.retention import Retained, retention
+from cqdd_design.solids.selection import support_bearing
 from cqdd_design.solids.walls import least_walls
 from cqdd_design.verdict.retention_lines import retention_lines
 
@@ -211,6 +212,42 @@ def test_a_low_shoulder_does_not_reach_past_the_chamfer(machine: Machine) -> Non
     line = retention_lines(weak)[1]
     assert line.status == "fail"
     assert line.value == pytest.approx(1.2)
+
+
+@pytest.mark.parametrize(("height", "status"), [(1.9, "fail"), (2.1, "pass")])
+def test_a_shoulder_reaches_past_the_largest_chamfer(
+    machine: Machine, height: float, status: str
+) -> None:
+    """Of an SKF 61900: 0.3 mm at least, and up to 0.6 mm along the radius (ISO 582)."""
+    layout, bearing = machine.layout, machine.seats[0].bearing
+    assert bearing.chamfer == pytest.approx(0.3e-3)
+    shoulder = 0.5 * bearing.bore_diameter + height * bearing.chamfer
+    changed = replace(layout, shaft=replace(layout.shaft, shoulder_radius=shoulder))
+    weak = machine.changed({})
+    vars(weak).update(layout=changed, parts=build_parts(machine.design, changed))
+    line = retention_lines(weak)[1]
+    assert line.status == status
+    assert line.value == pytest.approx(height)
+    assert line.limit == pytest.approx(2.0)
+    assert "chamfer of the SKF 61900 0.3 to 0.6 mm" in line.substituted
+
+
+@pytest.mark.parametrize("shoulder", np.arange(6e-3, 40e-3, 0.37e-3))
+def test_the_support_bearing_is_one_whose_chamfer_the_shoulder_clears(shoulder: float) -> None:
+    chosen = support_bearing(shoulder, 0.4e-3, 3.0 * shoulder, 3.0 * shoulder).bearing
+    assert 0.5 * (shoulder - chosen.bore_diameter) >= chosen.largest_chamfer - 1e-12
+
+
+def test_corners_are_those_of_the_bearing_and_not_of_its_bore() -> None:
+    small, wide, crossed = map(find_bearing, ("SKF 618/4", "6907", "THK RB3010"))
+    assert small.largest_fillet == pytest.approx(0.1e-3)
+    assert small.largest_fillet < least_chamfer(small.bore_diameter)
+    assert wide.largest_fillet == pytest.approx(0.6e-3)
+    assert wide.largest_chamfer == pytest.approx(1.0e-3)
+    # What the source does not give: no fillet too large, no shoulder too low.
+    assert crossed.chamfer is None
+    assert crossed.largest_fillet == pytest.approx(0.3e-3)
+    assert crossed.largest_chamfer == pytest.approx(1.5e-3)
 
 
 def test_the_table_speaks_in_millimetres(machine: Machine) -> None:

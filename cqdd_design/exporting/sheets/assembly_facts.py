@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from cqdd_design.catalog.adhesives import NUT_LOCKING
 from cqdd_design.catalog.tightening import torque_words
 from cqdd_design.exporting.bill.consumables import consumables
 from cqdd_design.exporting.bill.substitutes import ordered
@@ -14,8 +15,9 @@ from cqdd_design.machine.grease import grease_fill
 from cqdd_design.machine.motor_standing import motor_standing
 from cqdd_design.machine.screws import tightened_screws
 from cqdd_design.machine.sealing import sealing
+from cqdd_design.machine.set_heights import set_heights
 from cqdd_design.solids.apart import Step, taken_apart, unit_name
-from cqdd_design.solids.features.kinds import Joint
+from cqdd_design.solids.features.kinds import AxialThread, Joint
 from cqdd_design.solids.tool_access import reaches
 
 if TYPE_CHECKING:
@@ -103,6 +105,8 @@ class AssemblyFacts:
                     said.append(f"{_capital(part.name)}: {joint_note(feature)}")
         said.append(self._grease())
         said.append(motor_standing(self.machine))
+        said += set_heights(self.machine)
+        said.append(self._nut())
         said += [sealing(self.machine), centring(self.machine)]
         said.append(
             f"Turned by hand, the output's face and seat run true to the housing within {_RUN_OUT} "
@@ -110,6 +114,15 @@ class AssemblyFacts:
         )
         said.append("Screws lightly oiled; torques by VDI 2230 for a torque wrench.")
         return said
+
+    def _nut(self) -> str:
+        (nut,) = (part for part in self.parts if part.name == "bearing nut")
+        (thread,) = (one for one in nut.features if isinstance(one, AxialThread))
+        outside = 2e3 * self.machine.layout.carrier.output.shoulder_radius
+        return (
+            f"Bearing nut, {thread.designation}: as firm as a hook spanner for \u00d8{outside:.4g} "
+            f"makes it by hand; it holds the ring to its shoulder and sets no play. {NUT_LOCKING}"
+        )
 
     def _grease(self) -> str:
         fill = grease_fill(self.machine)

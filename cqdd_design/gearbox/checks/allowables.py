@@ -425,8 +425,6 @@ def bond_limit(compound: RetainingCompound, hub: Material, temperature: float) -
 # Retention -------------------------------------------------------------------------------------
 LEAST_WALL_BETWEEN_HOLES = 0.4e-3
 """Between drilled holes, and from them to rims, m (house rule: less tears in drilling)."""
-SHOULDER_SHARE = 1.25
-"""Height of a shoulder over the chamfer of the ring that stands on it: a quarter of it bears."""
 
 # Heat ------------------------------------------------------------------------------------------
 GREASE_MOST = 120.0

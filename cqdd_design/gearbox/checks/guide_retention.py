@@ -21,9 +21,11 @@ ROWS = (
         "Lowest shoulder beside a bearing, over the bearing's chamfer",
         "",
         "min",
-        f"width of the face on a ring / least chamfer of ISO 15 >= {limits.SHOULDER_SHARE:g}",
-        "A shoulder lower than the chamfer of the ring's edge does not hold it at all.",
-        f"ISO 15, ISO 582 (chamfers); {HOUSE}",
+        "width of the face on a ring / its least chamfer (catalogue; ISO 15) >= largest chamfer "
+        "(ISO 582) / least",
+        "A shoulder lower than the chamfer of the ring's edge does not hold it at all, and a maker "
+        "may make that chamfer twice the least.",
+        "ISO 15:2017, ISO 582:1995 table 1 (chamfers of the rings)",
     ),
     CheckGuide(
         "RETENTION-AXIAL-PLAY",

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-from cqdd_design.catalog.bearings import least_chamfer
 from cqdd_design.catalog.threads import (
     Thread,
     ThreadGroove,
@@ -84,13 +83,13 @@ def _plate_seats(carrier: CarrierLayout, shaft: ShaftLayout) -> list[Feature]:
         shoulder(
             "shoulder of the output bearing", carrier.bearing_bottom,
             0.5 * output.bore_diameter, carrier.shoulder_radius, "up", outside,
-            fillet=least_chamfer(output.bore_diameter), datum="B",
+            fillet=output.largest_fillet, datum="B",
         ),
         bore,
         shoulder(
             "shoulder of the shaft bearing", seat_top,
             shaft.support.lip_radius, 0.5 * support.outer_diameter, "down", bore,
-            fillet=least_chamfer(support.bore_diameter), refers="AB", along=BEARING_FACE,
+            fillet=support.largest_fillet, refers="AB", along=BEARING_FACE,
         ),
         AxialThread(
             "thread of the nut", thread, groove.pitch, _axial(thread, groove.pitch), "6g",

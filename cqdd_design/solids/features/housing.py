@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-from cqdd_design.catalog.bearings import least_chamfer
 from cqdd_design.catalog.threads import coarse_thread, thread_size_of
 from cqdd_design.solids.features import zones
 from cqdd_design.solids.features.holes import (
@@ -81,7 +80,7 @@ def housing_features(layout: Layout) -> tuple[Feature, ...]:
         bore,
         shoulder("shoulder of the shaft bearing", seat_bottom, support.lip_radius,
                  0.5 * support.bearing.outer_diameter, "up", bore,
-                 fillet=least_chamfer(support.bearing.bore_diameter), refers="A",
+                 fillet=support.bearing.largest_fillet, refers="A",
                  along=BEARING_FACE),
         tapped("threads of the cover's screws", thread, metric(thread), screw_circle(housing),
                mouth=pack.top, facing="up", depth=deep, room=deep),
@@ -255,7 +254,7 @@ def cover_features(layout: Layout) -> tuple[Feature, ...]:
         _seal_bore(housing.output_seal, "bore about the nut"),
         shoulder("lip over the output bearing", top, carrier.output.lip_radius,
                  0.5 * output.outer_diameter, "down", bore,
-                 fillet=least_chamfer(output.bore_diameter), along=BEARING_FACE),
+                 fillet=output.largest_fillet, along=BEARING_FACE),
         shoulder("face on the ring clamp", bottom, 0.5 * output.outer_diameter,
                  housing.flange_radius, "down", bore, datum="B"),
         clearance("holes of the cover's screws", housing.screw.thread, bottom,

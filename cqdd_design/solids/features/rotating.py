@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 from cqdd_design.catalog.adhesives import ROTOR_COMPOUND
-from cqdd_design.catalog.bearings import least_chamfer
 from cqdd_design.catalog.fits import fit_limits
 from cqdd_design.solids.features import zones
 from cqdd_design.solids.features.holes import Centre, Facing
@@ -67,7 +66,7 @@ def _pressed_on(pack: PackLayout, position: float) -> str:
 def journal_features(shaft: ShaftLayout) -> list[Feature]:
     """Journals, the shoulders between them, and their undercuts."""
     bearing = shaft.support.bearing
-    bore, corner = bearing.bore_diameter, least_chamfer(bearing.bore_diameter)
+    bore, corner = bearing.bore_diameter, bearing.largest_fillet
     lower = seat(
         "lower journal and rotor seat", bore, shaft.bottom, shaft.lower_seat_top, zones.JOURNAL,
         ground=True, datum="A", refers="A-B",
@@ -124,7 +123,7 @@ def lobe_features(
     inner = 0.5 * bearing.bore_diameter - pack.eccentricity
     face = shoulder(
         f"collar beside lobe {disc + 1}", height, inner, shaft.web_radius, collar, lobe,
-        fillet=least_chamfer(bearing.bore_diameter), refers=refers, along=BEARING_FACE,
+        fillet=bearing.largest_fillet, refers=refers, along=BEARING_FACE,
     )  # fmt: skip
     return [lobe, face]
 

@@ -1,0 +1,62 @@
+"""What is set by a height gauge as it is bonded: no shoulder places it along the axis."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from cqdd_design.catalog.encoders import encoder_sensors
+
+if TYPE_CHECKING:
+    from cqdd_design.machine.machine import Machine
+    from cqdd_design.solids.motor_layout import MotorEnd
+
+_MM = 1e3
+_SET_WITHIN = 0.1
+"""What a height gauge on a surface plate sets while a bond cures, to either side, mm."""
+_FACE = "the housing's face for the motor cover"
+
+
+def set_heights(machine: Machine) -> list[str]:
+    """How rotor and encoder come to their heights, in sentences; none without a drawn motor.
+
+    All heights count from the face between housing and motor cover, which both sheets have.
+
+    Raises
+    ------
+    GeometryError
+        When the machine cannot be laid out.
+    """
+    motor = machine.layout.motor_end
+    if motor is None:
+        return []
+    carrier = "rotor hub" if machine.layout.inrunner is not None else "rotor bell"
+    rotor = (
+        f"No shoulder places the {carrier} on the shaft. With the shaft's shims in place, set its "
+        f"hub's lower face {_MM * (motor.joint - motor.hub_bottom):.4g} \u00b1{_SET_WITHIN:g} mm "
+        f"from {_FACE} by a height gauge, and hold it so until the bond has set."
+    )
+    return [rotor, _encoder(machine, motor)]
+
+
+def _encoder(machine: Machine, motor: MotorEnd) -> str:
+    board = next(part.designation for part in machine.parts if part.name == "encoder board")
+    sensor = next((one for one in encoder_sensors() if one.name == board), None)
+    if motor.open:
+        return (
+            "The encoder's ring magnet stands flush with the shaft's end, "
+            f"{_MM * (motor.joint - motor.shaft_end):.4g} \u00b1{_SET_WITHIN:g} mm from {_FACE}: "
+            "the sensor is then at half its height."
+        )
+    drawn = motor.magnet_bottom - motor.sensor_top
+    reads = f"drawn {_MM * drawn:.3g} mm"
+    if sensor is not None and sensor.least_gap is not None:
+        reads = (
+            f"the {sensor.name} reads from {_MM * sensor.least_gap:.3g} to "
+            f"{_MM * sensor.most_gap:.3g} mm, {reads}"
+        )
+    return (
+        f"The encoder's gap is measured before the motor cover goes on: from {_FACE} to the "
+        f"sensor, {_MM * (motor.joint - motor.sensor_top):.4g} mm as drawn, less from the same "
+        f"face to the magnet, {_MM * (motor.joint - motor.magnet_bottom):.4g} mm as drawn ({reads})"
+        ". Where too little is left, deepen the magnet's seat; where too much, bond it proud."
+    )
