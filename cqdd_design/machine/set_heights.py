@@ -47,16 +47,16 @@ def _encoder(machine: Machine, motor: MotorEnd) -> str:
             f"{_MM * (motor.joint - motor.shaft_end):.4g} \u00b1{_SET_WITHIN:g} mm from {_FACE}: "
             "the sensor is then at half its height."
         )
-    drawn = motor.magnet_bottom - motor.sensor_top
-    reads = f"drawn {_MM * drawn:.3g} mm"
+    gap = f"{_MM * (motor.magnet_bottom - motor.sensor_top):.3g} mm as drawn"
     if sensor is not None and sensor.least_gap is not None:
-        reads = (
-            f"the {sensor.name} reads from {_MM * sensor.least_gap:.3g} to "
-            f"{_MM * sensor.most_gap:.3g} mm, {reads}"
+        gap = (
+            f"{_MM * sensor.least_gap:.3g} to {_MM * sensor.most_gap:.3g} mm for the "
+            f"{sensor.name}, {gap}"
         )
     return (
         f"The encoder's gap is measured before the motor cover goes on: from {_FACE} to the "
-        f"sensor, {_MM * (motor.joint - motor.sensor_top):.4g} mm as drawn, less from the same "
-        f"face to the magnet, {_MM * (motor.joint - motor.magnet_bottom):.4g} mm as drawn ({reads})"
-        ". Where too little is left, deepen the magnet's seat; where too much, bond it proud."
+        f"sensor in it {_MM * (motor.joint - motor.sensor_top):.4g} mm as drawn, less from the "
+        f"same face to the magnet {_MM * (motor.joint - motor.magnet_bottom):.4g} mm as drawn, "
+        f"has to leave {gap}. Where that is too little, deepen the magnet's seat; where it is too "
+        "much, bond it proud."
     )

@@ -10,10 +10,12 @@ from cqdd_design.catalog import bearings, motors
 from cqdd_design.design import Design, load_design
 from cqdd_design.exporting.sheets.assembly_facts import AssemblyFacts
 from cqdd_design.gearbox.checks.allowables import LIGAMENT, RING_WALL
+from cqdd_design.geometry.contours import Circle
 from cqdd_design.geometry.scale import largest_ring, millimetre_unit, ring_within_rotor
 from cqdd_design.machine import resolve
 from cqdd_design.machine.motor_standing import motor_standing, room_round_motor
 from cqdd_design.machine.set_heights import set_heights
+from cqdd_design.solids.features.holes import PlainHole
 from cqdd_design.solids.motor_rules import undrawn_sizes
 from cqdd_design.solids.stations import stations
 
@@ -106,8 +108,9 @@ def test_rotor_and_magnet_are_set_from_a_face_that_both_sheets_have(
     spans = {one.name: one.spans for one in stations(machine.parts)}
     sensor = max(span.top for span in spans["encoder board"])
     magnet = min(span.bottom for span in spans["encoder magnet"])
-    assert numbers == pytest.approx([1e3 * (face - sensor), 1e3 * (face - magnet)], abs=0.01)
-    assert "the ams AS5047P reads from 0.5 to 1.8 mm, drawn 1 mm" in encoder
+    ways = [1e3 * (face - sensor), 1e3 * (face - magnet)]
+    assert numbers == pytest.approx([*ways, ways[0] - ways[1]], abs=0.01)
+    assert "has to leave 0.5 to 1.8 mm for the ams AS5047P, 1 mm as drawn." in encoder
     notes = AssemblyFacts(machine).notes()
     assert rotor in notes
     assert encoder in notes
@@ -122,3 +125,49 @@ def test_the_bearing_nut_is_tightened_and_locked(paper: Design) -> None:
     (said,) = (one for one in AssemblyFacts(machine).notes() if one.startswith("Bearing nut"))
     assert "M49.5 x 0.75" in said
     assert "threadlocker" in said
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {},
+        {"reducer.ring.outer_diameter": "110 mm"},
+        {"motor": {"name": "CubeMars RI100 KV105"}},
+        {"requirements.bore": "4 mm"},
+    ],
+    ids=["round the gearbox", "behind it", "inrunner", "hollow shaft"],
+)
+def test_the_encoders_cable_has_a_way_out_under_its_board(
+    paper: Design, change: dict[str, object]
+) -> None:
+    parts = {one.name: one for one in resolve(paper.replacing(change)).parts}
+    cover, board = parts["motor cover"], parts["encoder board"]
+    (hole,) = (one for one in cover.features if one.name == "hole of the encoder's cable")
+    assert isinstance(hole, PlainHole)
+    # From the board's underside through all of the plate that it stands on.
+    assert hole.top == pytest.approx(min(layer.bottom for layer in board.shape.layers))
+    assert hole.bottom == pytest.approx(cover.shape.bottom)
+    x, y = hole.circle.centres[0]
+    middle, radius = complex(x, y), 0.5 * hole.diameter
+    ring = board.shape.layers[0].shape
+    assert isinstance(ring.outer, Circle)
+    assert abs(middle) + radius < ring.outer.radius
+    for layer in cover.shape.layers:
+        if layer.bottom < hole.top - 1e-9:
+            bores = [one for one in layer.shape.holes if isinstance(one, Circle)]
+            assert any(
+                abs(complex(*one.centre) - middle) < 1e-9 and one.radius == pytest.approx(radius)
+                for one in bores
+            )
+    # Clear of the board's screws, and of a hole round the shaft.
+    (threads,) = (one for one in cover.features if one.name == "threads of the board's screws")
+    walls = [
+        abs(complex(*centre) - middle) - radius - 0.5 * threads.thread
+        for centre in threads.circle.centres
+    ]
+    walls += [
+        abs(complex(*one.centre) - middle) - radius - one.radius
+        for one in ring.holes
+        if isinstance(one, Circle) and abs(complex(*one.centre)) < 1e-9
+    ]
+    assert min(walls) > 1e-3

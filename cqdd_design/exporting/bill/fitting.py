@@ -161,7 +161,7 @@ def _encoder(motor: MotorEnd, shaft_end: float) -> dict[str, str]:
         "encoder board": (
             f"{_MM * gap:g} mm from magnet to sensor; the sensor stands in the middle of a round "
             f"board of {_board(motor)}, on three screws, bought with it or made to the outline in "
-            "STEP"
+            "STEP; its cable leaves through the hole under it in the motor cover"
         ),
     }
 
@@ -177,8 +177,9 @@ def _ring_encoder(motor: MotorEnd) -> dict[str, str]:
         "encoder board": (
             f"sensor at half the magnet's height, the board's edge {_MM * gap:g} mm beside it; a "
             f"round board of {_board(motor)}, with a hole of {_MM * hole:g} mm, on three screws, "
-            "bought with it or made to the outline in STEP; trim and calibrate the sensor for its "
-            "place beside the shaft"
+            "bought with it or made to the outline in STEP; its cable leaves through the hole "
+            "under it in the motor cover; trim and calibrate the sensor for its place beside the "
+            "shaft"
         ),
     }
 

@@ -8,7 +8,7 @@ from cqdd_design.solids.features.holes import BoltCircle, PlainHole
 from cqdd_design.solids.features.housing import ear_circle
 from cqdd_design.solids.features.kinds import Feature, Joint
 from cqdd_design.solids.features.making import clearance, metric, seat, shoulder, tapped
-from cqdd_design.solids.features.motor import board_threads
+from cqdd_design.solids.features.motor import board_cable, board_threads
 from cqdd_design.solids.motor_layout import InrunnerLayout, MotorEnd
 from cqdd_design.solids.registers import LEAD_IN
 
@@ -49,6 +49,7 @@ def can_features(motor: InrunnerLayout, unit: float) -> tuple[Feature, ...]:
         shoulder("face on the housing", motor.joint, motor.cover_inner, motor.body, "up", bore,
                  datum="B"),
         board_threads(motor, unit, refers="A"),
+        board_cable(motor, unit),
         clearance("holes of the cover's screws", motor.cover_screw.thread,
                   motor.joint - motor.ear_height, motor.joint, ear_circle(motor)),
         Joint("motor stator", "bonded", bore.name, "motor stator", "bond in its seat"),

@@ -16,6 +16,10 @@ from cqdd_design.solids.registers import LEAD_IN
 _BOARD_SCREWS = 3
 _BOARD_GAP = 0.4e-3
 """Between the heads of the board's screws and its edge, m."""
+_CABLE, _CABLE_RIM, _CABLE_AT = 5.0e-3, 1.0e-3, math.pi / 3.0
+"""Hole for the cable of the encoder's board, which has six to eight thin wires, and how far inside
+the board's edge, m; its direction, between two of the board's screws and away from a sensor beside
+the shaft, rad."""
 _THIN = 1.2
 """Thickness of the dish under a ring magnet, units."""
 
@@ -88,6 +92,7 @@ def cover_features(motor: MotorLayout, flange_bottom: float, unit: float) -> tup
     return (
         *bores,
         board_threads(motor, unit, refers=to),
+        board_cable(motor, unit),
         tapped("threads of the cover's screws", large, metric(large), ear_circle(motor),
                mouth=flange_bottom, facing="up", depth=motor.ear_height, room=motor.ear_height,
                countersunk=False, refers=to),
@@ -107,6 +112,7 @@ def flanged_cover_features(motor: MotorLayout, unit: float) -> tuple[Feature, ..
         shoulder("face on the housing", motor.joint, motor.cover_inner, motor.body, "up", bore,
                  datum="B"),
         board_threads(motor, unit, refers="A"),
+        board_cable(motor, unit),
         clearance("holes of the cover's screws", motor.cover_screw.thread,
                   motor.joint - motor.ear_height, motor.joint, ear_circle(motor)),
     )  # fmt: skip
@@ -120,6 +126,14 @@ def board_threads(motor: MotorEnd, unit: float, *, refers: str) -> TappedHole:
         mouth=motor.board_bottom, facing="up", depth=_board_thread(motor),
         room=motor.board_bottom - dish_bottom(motor, unit), refers=refers,
     )  # fmt: skip
+
+
+def board_cable(motor: MotorEnd, unit: float) -> PlainHole:
+    """Through the cover's dish under the board: the way of the encoder's cable."""
+    radius = motor.board_radius - _CABLE_RIM - 0.5 * _CABLE
+    where = BoltCircle("encoder cable", radius, (_CABLE_AT,))
+    bottom = dish_bottom(motor, unit)
+    return PlainHole("hole of the encoder's cable", _CABLE, bottom, motor.board_bottom, where)
 
 
 def board_features(motor: MotorEnd) -> tuple[Feature, ...]:
