@@ -306,6 +306,8 @@ def main() -> None:
     parser.add_argument("--first", type=int, default=1, help="number of the first that is done")
     parser.add_argument("--angles", type=int, default=7, help="of the crank, looked at")
     options = parser.parse_args()
+    if not 1 <= options.first <= options.rows:
+        parser.error(f"--first {options.first}: there are rows 1 to {options.rows} (--rows)")
     told: Counter[str] = Counter()
     print("row  ratio  ring mm  discs  kind       seconds  found")
     with tempfile.TemporaryDirectory() as folder:
