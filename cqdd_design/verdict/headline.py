@@ -140,12 +140,15 @@ def _peak(evidence: Evidence, motor: Check, lines: Sequence[Check]) -> Figure:
     stood = standing_torque(evidence, lines, min(ways)[0] if ways else required)
     ways += [] if stood is None else [stood]
     value, basis = min(ways, default=(None, motor.basis))
-    judged = [line for line in lines if line.id in PEAK_LINES]
+    unknown = ["MOTOR-PEAK"] if motor.value is None else []
+    unknown += carried.unknown
+    unknown += [line.id for line in lines if line.id in PEAK_LINES and not line.known]
     status: Status = "pass"
     if value is not None and value < required * (1.0 - 1e-9):
         status = "fail"
-    elif motor.value is None or carried.unknown or not all(line.known for line in judged):
+    elif unknown:
         # What is known reaches it, but something is not known.
+        basis = f"not known of {', '.join(unknown)}; all else holds to {value:.4g} N*m ({basis})"
         value, status = None, "unknown"
     return Figure(name, title, value, "N*m", required, status, basis)
 
