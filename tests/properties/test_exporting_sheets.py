@@ -353,6 +353,17 @@ def test_the_sheet_of_a_plastic_part_names_the_inserts_in_its_threads(printed):
     assert sum("heat-set insert M4 x 8.1 in holes of 5.6 mm" in note for note in said) == 2
 
 
+def test_half_grooves_are_made_before_their_seat_is_bored(machine, printed):
+    """A drill across a seam of steel and aluminium runs off into the aluminium."""
+
+    def said(made):
+        housing = next(one for one in made.parts if one.name == "housing")
+        return " ".join(part_sheet.notes(PartFacts(housing, made.given)))
+
+    assert "drilled and reamed whole while the seat still has its stock" in said(machine)
+    assert "Half grooves" not in said(printed)
+
+
 def test_the_loose_cam_has_a_direction(machine):
     three = resolve(machine.given.replacing({"reducer.disc_count": 3}))
     (said,) = (note for note in notes_of(three) if "Eccentric cam pressed" in note)

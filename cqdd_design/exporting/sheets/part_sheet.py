@@ -154,6 +154,7 @@ def draw_part(facts: PartFacts) -> SheetDrawing:
 
 def notes(facts: PartFacts, *, exact: bool = True) -> list[str]:
     """Notes of a sheet, each a sentence or two; `exact` where it has dimensions in boxes."""
+    from cqdd_design.solids.features.holes import FittedHole
     from cqdd_design.solids.features.kinds import AxialThread, Seat, Shoulder
 
     said = [f"{facts.part.designation[0].upper()}{facts.part.designation[1:]}."]
@@ -164,6 +165,12 @@ def notes(facts: PartFacts, *, exact: bool = True) -> list[str]:
             said.append(f"Datum {feature.datum}: {what}{feature.name}.")
     said += [joint_note(joint) for joint in facts.joints]
     said += _insert_notes(facts.part)
+    seams = any(isinstance(one, FittedHole) and one.seam for one in features)
+    if seams and facts.part.material not in printed_materials():
+        said.append(
+            "Half grooves are drilled and reamed whole while the seat still has its stock; boring "
+            "the seat to size opens them. Never across the seam, with the mate in place."
+        )
     if facts.holes:
         said.append("X and Y of holes are theoretically exact; X points up in the view.")
     if facts.together:
