@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from cqdd_design.cli import completion
+from cqdd_design.cli.fitting import on_screen
 from cqdd_design.cli.options import (
     BenchSeed,
     BenchSupply,
@@ -95,7 +97,8 @@ def bench(
     if others or not names:
         out.say("", *_comparison(found.actuators))
     if judged is not None:
-        out.say("", headline_table(judged), "", *folded(_OTHERWISE), "", judged.sentence)
+        told = on_screen(judged.sentence, sys.stdout)
+        out.say("", headline_table(judged), "", *folded(_OTHERWISE), "", told)
     out.wrote(files)
     out.warn(*result.warnings)
     out.document(found.to_dict(), design=loaded, checks=found.lines, files=files)

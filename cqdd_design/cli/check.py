@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+import sys
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from cqdd_design.cli.fitting import on_screen
 from cqdd_design.cli.options import (
     DesignFile,
     Duty,
@@ -56,7 +58,7 @@ def check(
     if motion is not None:
         out.say(*_clearances(motion), "")
     out.say(headline_table(verdict), "", binding(verdict), "", *costs_told(found.costs))
-    out.say(sentence(loaded.name, found.lines))
+    out.say(on_screen(sentence(loaded.name, found.lines), sys.stdout))
     out.warn(*verdict.warnings)
     out.document(found.to_dict(), design=loaded, checks=found.lines)
     return 0 if found.meets == "yes" else 4

@@ -8,6 +8,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TextIO
 
 WIDTH = 80
 """Of a line, as far as what is told can be broken."""
@@ -150,3 +151,11 @@ def wrapped(text: str, width: int, first: str, after: str) -> list[str]:
         break_long_words=False,
         break_on_hyphens=False,
     )
+
+
+def on_screen(text: str, stream: TextIO) -> str:
+    """Sentences in lines of 80 on a terminal; whole where they are piped, to be searched."""
+    if not stream.isatty():
+        return text
+    lines = [wrapped(line, WIDTH, "", "  ") or [""] for line in text.split("\n")]
+    return "\n".join(part for line in lines for part in line)

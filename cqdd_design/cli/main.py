@@ -38,6 +38,7 @@ from cqdd_design.cli import (
     torque_train,
 )
 from cqdd_design.cli.colour import ERROR, with_coloured_start
+from cqdd_design.cli.fitting import on_screen
 from cqdd_design.cli.number_words import number_refused
 from cqdd_design.cli.session import INTERRUPTED_WITH_RESULTS, command, print_result
 from cqdd_design.environment import PROJECT, missing_dependency
@@ -213,8 +214,8 @@ def _end(
     if "--debug" in arguments and kind != "Interrupted":
         traceback.print_exc()
     message = message.replace("?.", "?")
-    told = with_coloured_start(f"{ERROR} {printable(message)}", ERROR, sys.stderr)
-    print(told, file=sys.stderr)
+    told = on_screen(f"{ERROR} {printable(message)}", sys.stderr)
+    print(with_coloured_start(told, ERROR, sys.stderr), file=sys.stderr)
     if "--json" in arguments:
         from cqdd_design.library.envelope import error_document
 

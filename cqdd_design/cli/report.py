@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import Annotated
 
+from cqdd_design.cli.fitting import on_screen
 from cqdd_design.cli.options import (
     BenchSeed,
     Calibrated,
@@ -64,6 +66,6 @@ def report(
         )
     judged = written.verdict
     out.wrote([written.file])
-    out.say(headline_table(judged), "", judged.sentence)
+    out.say(headline_table(judged), "", on_screen(judged.sentence, sys.stdout))
     out.warn(*judged.warnings)
     out.document(written.to_dict(), design=loaded, checks=judged.lines, files=[written.file])

@@ -19,6 +19,7 @@ import typer
 
 from cqdd_design.cli import interruption
 from cqdd_design.cli.colour import WARNING, coloured, is_coloured, with_coloured_start
+from cqdd_design.cli.fitting import on_screen
 from cqdd_design.cli.progress import Bar
 from cqdd_design.environment import source_date
 from cqdd_design.errors import UsageError, printable
@@ -145,7 +146,8 @@ class Output:
         """Narrate on stderr."""
         if not self.quiet:
             self.end_progress()
-            told = with_coloured_start(printable(sentence), WARNING, sys.stderr)
+            told = on_screen(printable(sentence), sys.stderr)
+            told = with_coloured_start(told, WARNING, sys.stderr)
             print(told, file=sys.stderr, flush=True)
 
     def compile_ahead(

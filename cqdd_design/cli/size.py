@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import textwrap
 from enum import StrEnum
 from pathlib import Path
@@ -10,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from cqdd_design.cli.completion import export_kinds, sized_motors
-from cqdd_design.cli.fitting import WIDTH
+from cqdd_design.cli.fitting import WIDTH, on_screen
 from cqdd_design.cli.options import (
     Duty,
     DutyColumnNames,
@@ -251,7 +252,7 @@ def _judged(road: Road, judged: Verdict, *, verbose: bool) -> list[str]:
         binding(judged),
         "",
         *costs_told([one.told for one in road.sizing.costs]),
-        judged.sentence,
+        on_screen(judged.sentence, sys.stdout),
         *_next(road),
     ]
 

@@ -92,3 +92,19 @@ def test_errors_begin_in_colour_and_documents_have_none() -> None:
     assert shown.startswith("cqdd-design: ")
     _, document = on_terminal("catalog", "fits", "--json")
     assert not CODES.search(document)
+
+
+def test_sentences_keep_to_80_columns_on_a_terminal_and_stay_whole_in_a_pipe() -> None:
+    missing = "-".join(["a", *["long"] * 12, "name"]) + ".toml"
+    code, shown = on_terminal("check", missing)
+    assert code == 2
+    lines = CODES.sub("", shown).rstrip().split("\n")
+    assert len(lines) > 1
+    assert max(map(len, lines)) <= 80
+    assert all(line.startswith("  ") for line in lines[1:])
+    piped = subprocess.run(
+        [sys.executable, "-m", "cqdd_design", "check", missing], capture_output=True, text=True
+    )
+    (whole,) = piped.stderr.rstrip().split("\n")
+    assert len(whole) > 80
+    assert " ".join(line.strip() for line in lines) == whole
