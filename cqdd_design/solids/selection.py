@@ -124,9 +124,10 @@ def support_bearing(
         for row in bearings().values()
         if row.kind == "ball"
         and row.static_rating is not None
-        and row.bore_diameter <= most_bore - max(least_step, 2.0 * row.largest_chamfer) + 1e-9
+        and row.bore_diameter <= most_bore - least_step + 1e-9
         and row.outer_diameter <= most_outer_diameter + 1e-9
         and row.width <= 0.9 * row.bore_diameter
+        and row.bore_diameter <= most_bore - 2.0 * row.largest_chamfer + 1e-9
     ]
     fitting = [r for r in fitting if r.outer_diameter <= nested_diameter + 1e-9] or fitting
     if fitting:

@@ -148,7 +148,8 @@ def _peak(evidence: Evidence, motor: Check, lines: Sequence[Check]) -> Figure:
         status = "fail"
     elif unknown:
         # What is known reaches it, but something is not known.
-        basis = f"not known of {', '.join(unknown)}; all else holds to {value:.4g} N*m ({basis})"
+        held = "" if value is None else f"; all else holds to {value:.4g} N*m ({basis})"
+        basis = f"not known of {', '.join(unknown)}{held}"
         value, status = None, "unknown"
     return Figure(name, title, value, "N*m", required, status, basis)
 
