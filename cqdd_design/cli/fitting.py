@@ -153,9 +153,12 @@ def wrapped(text: str, width: int, first: str, after: str) -> list[str]:
     )
 
 
-def on_screen(text: str, stream: TextIO) -> str:
-    """Sentences in lines of 80 on a terminal; whole where they are piped, to be searched."""
-    if not stream.isatty():
+def on_screen(text: str, stream: TextIO | None) -> str:
+    """Sentences in lines of 80 on a terminal; whole where they are piped, to be searched.
+
+    A stream may be none at all: a process can be started with its standard output closed.
+    """
+    if stream is None or not stream.isatty():
         return text
     lines = [wrapped(line, WIDTH, "", "  ") or [""] for line in text.split("\n")]
     return "\n".join(part for line in lines for part in line)

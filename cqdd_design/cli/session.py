@@ -146,7 +146,9 @@ class Output:
         """Narrate on stderr."""
         if not self.quiet:
             self.end_progress()
-            told = on_screen(printable(sentence), sys.stderr)
+            told = printable(sentence)
+            if told.startswith(WARNING):
+                told = on_screen(told, sys.stderr)
             told = with_coloured_start(told, WARNING, sys.stderr)
             print(told, file=sys.stderr, flush=True)
 
