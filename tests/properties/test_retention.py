@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cqdd_design.catalog.bearings import find_bearing, least_chamfer
+from cqdd_design.catalog.bearings import bearings, find_bearing, least_chamfer
 from cqdd_design.design import Design, load_design
 from cqdd_design.geometry.contours import PlanarPart
 from cqdd_design.machine import Machine, resolve
@@ -248,6 +248,18 @@ def test_corners_are_those_of_the_bearing_and_not_of_its_bore() -> None:
     assert crossed.chamfer is None
     assert crossed.largest_fillet == pytest.approx(0.3e-3)
     assert crossed.largest_chamfer == pytest.approx(1.5e-3)
+
+
+def test_bearings_of_the_same_sizes_have_the_same_chamfer() -> None:
+    """ISO 15 is a plan of sizes, chamfers among them: any maker's goes into the same corner."""
+    known: dict[tuple[str, float, float, float], float] = {}
+    for one in bearings().values():
+        if one.chamfer is None:
+            continue
+        sizes = (one.kind, one.bore_diameter, one.outer_diameter, one.width)
+        assert known.setdefault(sizes, one.chamfer) == one.chamfer, one.designation
+        assert one.largest_fillet < one.largest_chamfer < 0.5 * (sizes[2] - sizes[1]), sizes
+    assert len(known) > 200
 
 
 def test_the_table_speaks_in_millimetres(machine: Machine) -> None:

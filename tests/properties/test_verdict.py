@@ -23,6 +23,7 @@ from cqdd_design.gearbox.contact.rubbing import ContactFriction
 from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 from cqdd_design.gearbox.life.fatigue import contact_cycles
 from cqdd_design.machine import Machine, resolve
+from cqdd_design.machine.carrying import CarriedTorque
 from cqdd_design.machine.contact_analysis import analyse_contact
 from cqdd_design.machine.rotor_overhang import rotor_overhang
 from cqdd_design.results import Check
@@ -258,6 +259,18 @@ def test_a_peak_that_is_not_known_names_the_lines_that_are_not() -> None:
     assert figure.status == "unknown"
     assert figure.value is None
     assert figure.basis.startswith("not known of OUTPUT-STATIC; all else holds to 13.24 N*m (")
+
+
+def test_a_peak_of_which_nothing_is_known_says_no_torque(
+    machine: Machine, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bare = CarriedTorque(50.0, (), ("CONTACT-RING-PEAK",))
+    monkeypatch.setattr("cqdd_design.verdict.headline.carried_torque", lambda _: bare)
+    monkeypatch.setattr("cqdd_design.verdict.headline.standing_torque", lambda *_: None)
+    blank = replace(machine, motor=replace(machine.motor, peak_torque=None))
+    figure = judge(blank, samples=0).headline[0]
+    assert (figure.value, figure.status) == (None, "unknown")
+    assert figure.basis == "not known of MOTOR-PEAK, CONTACT-RING-PEAK"
 
 
 def test_drag_that_nobody_measured_never_passes(machine: Machine) -> None:
