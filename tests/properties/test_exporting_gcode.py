@@ -21,6 +21,7 @@ from hypothesis import strategies as st
 from cqdd_design.design import load_design
 from cqdd_design.errors import CqddError, ReadBackError
 from cqdd_design.exporting import ExportOptions
+from cqdd_design.exporting.edm.begin import OVERLAP_SHARE
 from cqdd_design.exporting.edm.flat_parts import flat_parts
 from cqdd_design.exporting.edm.gcode import program
 from cqdd_design.exporting.edm.gcode_check import check_program
@@ -209,6 +210,49 @@ def test_the_tab_is_as_long_as_asked(paper, parts, tab):
             assert cut[-1][2] == cut[0][2]
 
 
+def _length(moves):
+    return np.abs(np.diff(_points(moves, 200))).sum()
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 4])
+@pytest.mark.parametrize("index", [0, 1])
+def test_the_last_pass_runs_over_the_finished_wall_on_both_sides_of_the_tab(
+    paper, parts, index, count
+):
+    flat = parts[index]
+    for cut in _cuts(program(flat, paper, ExportOptions(passes=count))):
+        wall, tab = _passes(cut)
+        one_way = wall[0][1:-1]
+        whole = _points(one_way, 2 + 20_000 // len(one_way))
+        # The last pass of the tab holds its way out too.
+        bare = next(k for k, move in enumerate(tab[-1]) if move[0] == "G01" and "G40" in move[4])
+        last = tab[-1][1:bare]
+        begins, ends = tab[-1][0][2], last[-1][2]
+        first_joint, far_joint = one_way[0][1], one_way[-1][2]
+        long = _length(last)
+        if count > 1:
+            long -= abs(begins - far_joint)
+            assert np.abs(whole - begins).min() < 0.05
+        left = long - abs(ends - first_joint)
+        over = abs(ends - first_joint)
+        assert over == pytest.approx(0.1 * left, abs=0.012)
+        assert count == 1 or abs(begins - far_joint) == pytest.approx(over, abs=0.012)
+        # All of it lies on the wall or on the tab, and no further than a tooth or pin comes.
+        for place in _points(last, 20):
+            near = np.abs(whole - place).min() < 0.05
+            assert near or min(abs(place - first_joint), abs(place - far_joint)) < left
+        # The wire goes home along the kerf and the way that it came.
+        home = tab[-1][bare:]
+        came = cut[1][1], cut[1][2]
+        kerf = home[-1][1]
+        along = (came[1] - came[0]) / abs(came[1] - came[0])
+        assert abs(((kerf - came[0]) / along).imag) < 1e-3
+        assert home[-1][2] == came[0]
+        apart = abs(kerf - first_joint)
+        for place in _points(home[1:-1], 20) if len(home) > 2 else ():
+            assert np.abs(whole - place).min() == pytest.approx(apart, abs=2e-3)
+
+
 def test_holes_come_first_and_the_wire_is_cut_between(text):
     assert text.startswith("%\nO0001\n")
     assert text.endswith("M99\n%\n")
@@ -294,7 +338,7 @@ def test_no_tooth_touches_the_tab_of_a_disc(name, paper_design_file):
     point, _ = machine.contact.disc.profile(sweep.ring_parameter[sweep.ring_force > 0.0])
     off = np.abs(math.tau / 10 * np.round(np.angle(point) * 10 / math.tau) - np.angle(point))
     away = off * np.abs(point)
-    assert away.min() > 0.5 * DEFAULTS.tab_length
+    assert away.min() > (0.5 + OVERLAP_SHARE) * DEFAULTS.tab_length
 
 
 def test_tabs_are_where_no_tooth_or_pin_pushes(paper, parts):
@@ -368,6 +412,16 @@ def _replaced(text, old, new, count=1):
         ("M98 P0012", "M98 P0099", "calls no subprogram"),
         (r"(G40 G01 X\d+\.)\d", r"\g<1>9", "middle of the kerf"),
         (r"\nM99\n%", "\n%", "does not end at an M99"),
+        (
+            r"X13\.8844 Y-1\.7950\nM98 P0016",
+            r"X13.9197 Y-1.4971\nM98 P0014",
+            "runs 0.0000 and 0.0000 mm over the wall, not 0.3000 and 0.3",
+        ),
+        (r"(G01 G40 X\d+\.)\d", r"\g<1>9", "radii of"),
+        (r"G01 G40 (X\S+ Y\S+)\nG02 .*\n", r"G01 G40 \1\n", "does not lead out as it led in"),
+        (r"G01 G40 (X\S+ Y\S+)\nG02 .*\n", r"", "middle of the kerf"),
+        (r"\nG02 (X22\.1491 Y4\.8210) I\S+ J\S+", r"\nG01 \1", "leaves the kerf"),
+        (r"(G02 X13\.7052 .*\n)", r"\1G41 D14 G01 X13.9 Y1.4\n", "again on the way"),
     ],
 )
 def test_a_spoilt_program_is_refused(text, paper, parts, old, new, said):

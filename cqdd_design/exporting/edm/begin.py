@@ -7,7 +7,8 @@ r"""Where the cut of a contour begins: so that its tab, the last that is cut, li
          \__________/                /    \   the tab               |   |  pushes along
           ^ the tab                 /      \                        '---'  the circle there
 
-A tab is cut last, from a wall that is finished on both sides of it, and shows. Its middle is put
+A tab is cut last, from a wall that is finished on both sides of it, and shows: its last passes run
+over that wall a little, so that no ridge is left where cuts meet. Its middle is put
 where a tooth has no lever about the disc's centre, or where no tooth comes; in a round contour off
 the axis, where a pin's push has no lever about the axis. The bore and the outside of the ring are
 seats all round: they begin at the right, or halfway between two grooves.
@@ -43,6 +44,11 @@ _PER_SEGMENT = 256
 NO_PIECE = 10e-6
 """Shorter pieces of an arc are none, m: coordinates to 0.1 um would turn them, and with them the
 way to the wire. A cut begins or ends at the joint instead."""
+
+
+OVERLAP_SHARE = 0.1
+"""Of a tab's length: how far its last passes run over the finished wall on either side. With
+3 mm of tab that is 0.3 mm; where the tab ends before a corner, so does the overlap."""
 
 
 def tab_of(contour: Contour, wanted: float = DEFAULTS.tab_length) -> float:

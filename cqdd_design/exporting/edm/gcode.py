@@ -13,8 +13,12 @@ what it runs along is a subprogram that they call. Here a hole, three passes::
     ...
     M01                   stop: all is cut but the tab; hold the slug
     G41 D01 ... M98 P0013 ... M00   the tab, rough; the slug comes out
-    ...                   the tab, skim cuts; the last leads out to the start hole
+    ...                   the tab, skim cuts; the last two run on over the finished wall
+    G01 G40 X.. Y..       off the wall, back along the kerf to where the cut began
+    G03 X.. Y.. I.. J..
+    G40 G01 X.. Y..       to the start hole
 
+The last pass of a tab begins and ends on the finished wall, so that it overlaps at both joints.
 Passes run to and fro, since the way from the tab's edge to the start hole is through the slug.
 Seats with a tolerance zone take registers from 11 on, whose values bring them to the middle of it.
 Holes first, so that the part stays in the plate to the last; the outer contour last. Forward is
@@ -34,7 +38,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from cqdd_design.catalog.printing import printed_materials
-from cqdd_design.exporting.edm.begin import begun, tab_on
+from cqdd_design.exporting.edm.begin import OVERLAP_SHARE, begun, tab_on
 from cqdd_design.exporting.edm.dxf import contour_fit
 from cqdd_design.exporting.edm.flat_parts import FlatPart, flat_parts, seats_of
 from cqdd_design.exporting.edm.gcode_check import check_program
@@ -113,9 +117,22 @@ class _Cut:
     start: complex
     wall: OpenChain
     tab: OpenChain
-    turns: tuple[complex, complex]
-    """In the middle of the kerf, beside the contour's first joint and where the tab begins, m."""
     circle: complex | None
+    into_waste: float
+    """From the contour to the middle of the kerf, to the left of its forward way, m."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Run:
+    """What one pass runs along."""
+
+    one: WirePass
+    on_tab: bool
+    forward: bool
+    chain: OpenChain
+    subprogram: int
+    turn: complex
+    """Where it leaves the wall for, in the middle of the kerf, m."""
 
 
 def export_gcode(job: ExportJob) -> tuple[WrittenFile, ...]:
@@ -171,8 +188,9 @@ def program(flat: FlatPart, design: Design, options: ExportOptions = DEFAULTS) -
         title = f"CUT {step} OF {len(flat.contours)}: {contour_name(number)}, {size}"
         kerf = passes[0].offset + shifts.get(number, 0.0)
         cut = _cut(flat, number, step, paths[number].start, kerf, options)
-        lines += _main(cut, title, passes, dialect, bases.get(number, 0))
-        subprograms += _subprograms(cut, dialect, len(passes))
+        runs = _runs(cut, passes)
+        lines += _main(cut, runs, title, dialect, bases.get(number, 0))
+        subprograms += _subprograms(cut, runs, dialect)
         if number:
             lines += ["(M50 CUT WIRE)", "M00"]
     lines += ["(M50 CUT WIRE, TAKE THE PART)", "M02", *subprograms, "%"]
@@ -209,7 +227,8 @@ def _heading(
         "CURVE, COORDINATES TO 0.1 UM",
         f"{len(flat.contours)} CONTOURS, HOLES FIRST, OUTER CONTOUR LAST; PASSES RUN TO AND FRO",
         f"EACH STOPS AT M01 BEFORE A TAB OF UP TO {_MM * options.tab_length:g} MM: HOLD THE SLUG",
-        "TABS ARE WHERE NO TOOTH COMES, IN HOLES WHERE A PIN PUSHES LEAST",
+        "TABS ARE WHERE NO TOOTH COMES, IN HOLES WHERE A PIN PUSHES LEAST; THE LAST PASS OF A TAB",
+        f"BEGINS AND ENDS {OVERLAP_SHARE:.0%} OF ITS LENGTH BEYOND IT, ON THE FINISHED WALL",
         f"ABOUT {minutes(whole)} A PIECE, AN ESTIMATE",
         "M60 THREADS AND M50 CUTS THE WIRE ON MANY CONTROLS; HERE THEY ARE COMMENTS AT AN M00,",
         "REPLACE BOTH BY YOUR OWN CODES FOR AUTOMATIC THREADING",
@@ -254,56 +273,74 @@ def _cut(
         exact = complex(*nominal.centre)
         circle = complex(*(_rounded(v * _MM) / _MM for v in nominal.centre))
         wall, tab = (OpenChain(one.points + circle - exact, one.bulges) for one in (wall, tab))
-    into_waste = kerf if number else -kerf
-    turns = wall.beside(into_waste), tab.beside(into_waste)
-    return _Cut(step, number == 0, start, wall, tab, turns, circle)
+    return _Cut(step, number == 0, start, wall, tab, circle, kerf if number else -kerf)
 
 
-def _main(
-    cut: _Cut, title: str, passes: Sequence[WirePass], dialect: Dialect, base: int
-) -> list[str]:
+def _behind(cut: _Cut) -> OpenChain:
+    """The first of the wall, forward: what the last pass of the tab runs on over."""
+    return cut.wall.divided(OVERLAP_SHARE * cut.tab.length)[0]
+
+
+def _before(cut: _Cut) -> OpenChain:
+    """The last of the wall, forward: what the last pass of the tab begins on."""
+    return cut.wall.divided(cut.wall.length - OVERLAP_SHARE * cut.tab.length)[1]
+
+
+def _runs(cut: _Cut, passes: Sequence[WirePass]) -> list[_Run]:
+    """All passes, those of the wall first; each begins where the one before it ended."""
+    count = len(passes)
+    wall, tab = [cut.wall] * count, [cut.tab] * count
+    if count > 1:
+        # The last begins on the wall, so the one before it, which runs back, ends there.
+        tab[-2:] = [_before(cut).joined(cut.tab)] * 2
+    tab[-1] = tab[-1].joined(_behind(cut))
+    runs: list[_Run] = []
+    for on_tab, chains, first in ((False, wall, 1), (True, tab, 3)):
+        numbers: dict[tuple[int, bool], int] = {}
+        for one, chain in zip(passes, chains, strict=True):
+            # The wall from its first joint, to and fro; the tab so that it ends there.
+            forward = (count - one.number if on_tab else one.number - 1) % 2 == 0
+            run = chain if forward else chain.reversed()
+            into_waste = cut.into_waste if forward else -cut.into_waste
+            number = numbers.setdefault((id(chain), forward), first + len(numbers))
+            runs.append(_Run(one, on_tab, forward, run, number, run.reversed().beside(-into_waste)))
+    return runs
+
+
+def _main(cut: _Cut, runs: Sequence[_Run], title: str, dialect: Dialect, base: int) -> list[str]:
     """Blocks of the main program for one contour."""
     held = "PART" if cut.outer else "SLUG"
     lines = [*_comments([title]), f"G00 {_xy(cut.start)}", "(M60 THREAD WIRE)", "M00"]
-    place = 0  # 0 at the contour's first joint, 1 where the tab begins
-    for chain, first in ((cut.wall, 1), (cut.tab, 3)):
-        on_tab = chain is cut.tab
-        if on_tab:
-            length = _MM * chain.length
+    for run in runs:
+        first_on_tab = run.on_tab and run.one.number == 1
+        if first_on_tab:
+            length = _MM * cut.tab.length
             lines += [*_comments([f"TAB OF {length:.3f} MM LEFT: HOLD THE {held}"]), "M01"]
-        for one in passes:
-            # The wall is run from the first joint, the tab to it.
-            forward = (place == 1) == on_tab
-            side = (_FORWARD if forward else _BACK)[0 if cut.outer else 1]
-            here = complex((cut.wall if place == 0 else cut.tab).points[0])
-            register = dialect.offset.format(base + one.number)
-            place = 1 - place
-            last = on_tab and one is passes[-1]
-            lines += [
-                *_comments([f"{one.name}{' OF THE TAB' if on_tab else ''}"]),
-                f"{side} {register} G01 {_xy(here)}",
-                f"M98 P{10 * cut.step + first + (not forward):04d}",
-                f"G40 G01 {_xy(cut.start if last else cut.turns[place])}",
-            ]
-            if on_tab and one is passes[0]:
-                told = "THE PART IS FREE: HELD BY MAGNETS" if cut.outer else "TAKE THE SLUG OUT"
-                lines += [f"({told})", "M00"]
-    return lines
+        side = (_FORWARD if run.forward else _BACK)[0 if cut.outer else 1]
+        register = dialect.offset.format(base + run.one.number)
+        lines += [
+            *_comments([f"{run.one.name}{' OF THE TAB' if run.on_tab else ''}"]),
+            f"{side} {register} G01 {_xy(complex(run.chain.points[0]))}",
+            f"M98 P{10 * cut.step + run.subprogram:04d}",
+            # Off the wall; after the last pass the block to the start hole says G40 once more.
+            f"{'G01 G40' if run is runs[-1] else 'G40 G01'} {_xy(run.turn)}",
+        ]
+        if first_on_tab:
+            told = "THE PART IS FREE: HELD BY MAGNETS" if cut.outer else "TAKE THE SLUG OUT"
+            lines += [f"({told})", "M00"]
+    along_kerf = _behind(cut).moved(cut.into_waste).reversed()
+    return [*lines, *_moves(along_kerf, cut.circle), f"G40 G01 {_xy(cut.start)}"]
 
 
-def _subprograms(cut: _Cut, dialect: Dialect, passes: int) -> list[str]:
-    """What the passes run along: the wall and the tab, forward and, where it is run, backward."""
+def _subprograms(cut: _Cut, runs: Sequence[_Run], dialect: Dialect) -> list[str]:
+    """What the passes run along: wall and tab, forward and, where it is run, backward."""
     lines = []
-    for chain, first in ((cut.wall, 1), (cut.tab, 3)):
-        both = [(chain, first), (chain.reversed(), first + 1)]
-        if passes == 1:
-            both = both[:1]
-        for way, number in both:
-            lines += [
-                dialect.subprogram.format(10 * cut.step + number),
-                *_moves(way, cut.circle),
-                "M99",
-            ]
+    for number, chain in sorted({run.subprogram: run.chain for run in runs}.items()):
+        lines += [
+            dialect.subprogram.format(10 * cut.step + number),
+            *_moves(chain, cut.circle),
+            "M99",
+        ]
     return lines
 
 

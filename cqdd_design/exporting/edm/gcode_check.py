@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from cqdd_design.errors import ReadBackError
+from cqdd_design.exporting.edm.begin import NO_PIECE, OVERLAP_SHARE
 from cqdd_design.exporting.edm.flat_parts import seats_of
 from cqdd_design.exporting.edm.loops import ComplexArray, FloatArray, Loop, fit_of
 from cqdd_design.exporting.edm.passes import wire_passes
@@ -61,11 +62,6 @@ class Pass:
     lead_in: tuple[complex, complex]
     lead_out: tuple[complex, complex]
 
-    def backward(self) -> Loop:
-        """Its segments the other way round."""
-        one = self.segments
-        return Loop(one.end[::-1], one.start[::-1], -one.bulge[::-1])
-
 
 @dataclass(frozen=True, eq=False)
 class Cut:
@@ -79,22 +75,40 @@ class Cut:
         Before and after the stop.
     stops : int
         M01 along the contour.
+    way_out : Loop
+        From the last pass to the start hole, without an offset. Not closed.
     """
 
     start: complex
     wall: tuple[Pass, ...]
     tab: tuple[Pass, ...]
     stops: int
+    way_out: Loop
 
     @property
     def loop(self) -> Loop:
         """The closed contour: the first pass of the wall, and the tab the same way round."""
-        wall, tab = self.wall[0].segments, self.tab[0].segments
-        if tab.start[0] != wall.end[-1]:
-            tab = self.tab[0].backward()
+        wall, tab = self.wall[0].segments, self.bare_tab
         return Loop(
             *(np.concatenate(both) for both in zip(_arrays(wall), _arrays(tab), strict=True))
         )
+
+    @property
+    def bare_tab(self) -> Loop:
+        """Of a pass of the tab, what the wall's first leaves, the same way round."""
+        wall, tab = self.wall[0].segments, self.tab[0].segments
+        if tab.start[0] != wall.end[-1]:
+            tab = tab.backward()
+        return _part(tab, wall.end[-1], wall.start[0])
+
+
+def _part(loop: Loop, begin: complex, end: complex) -> Loop:
+    """What of a chain lies between two of its joints; all of it where they are none."""
+    first, last = np.flatnonzero(loop.start == begin), np.flatnonzero(loop.end == end)
+    if not (first.size and last.size):
+        return loop
+    chosen = slice(int(first[0]), int(last[-1]) + 1)
+    return loop.part(chosen)
 
 
 def _arrays(loop: Loop) -> tuple[ComplexArray, ComplexArray, FloatArray]:
@@ -114,14 +128,21 @@ class _Control:
     start: complex = 0j
     wall: list[Pass] = field(default_factory=list)
     tab: list[Pass] = field(default_factory=list)
+    way_out: list[tuple[complex, complex, float]] = field(default_factory=list)
     stops: int = 0
     cuts: list[Cut] = field(default_factory=list)
 
     def finish_cut(self) -> None:
         """What was cut from one start hole is a cut."""
         if self.wall or self.tab:
-            self.cuts.append(Cut(self.start, tuple(self.wall), tuple(self.tab), self.stops))
-        self.wall, self.tab, self.stops = [], [], 0
+            wall, tab, out = tuple(self.wall), tuple(self.tab), _chain(self.way_out)
+            self.cuts.append(Cut(self.start, wall, tab, self.stops, out))
+        self.wall, self.tab, self.way_out, self.stops = [], [], [], 0
+
+
+def _chain(segments: list[tuple[complex, complex, float]]) -> Loop:
+    start, end, bulge = np.array(segments, complex).reshape(-1, 3).T
+    return Loop(start, end, bulge.real)
 
 
 def registers_of(text: str) -> dict[int, float]:
@@ -200,6 +221,8 @@ def _obey(control: _Control, words: list[tuple[str, float]], block: str) -> None
         raise ReadBackError(f"the block '{block}' does not say how to move.")
     turned = next((code for code in codes if code in (40, 41, 42)), None)
     if turned in (41, 42):
+        if control.way_out:
+            raise ReadBackError(f"the block '{block}' cuts again on the way out.")
         control.side, control.lead_in = turned, (begin, target)
         control.register = int(given.get("D", given.get("H", 0)))
         control.segments = []
@@ -207,16 +230,17 @@ def _obey(control: _Control, words: list[tuple[str, float]], block: str) -> None
     if turned == 40 and control.side != 40:
         _finish(control, (begin, target))
         return
-    if control.side == 40:
-        if motion != 0:
-            raise ReadBackError(f"the block '{block}' cuts without an offset.")
+    if motion == 0:
         control.finish_cut()
         control.start = target
         return
+    if control.side == 40 and not (control.wall or control.tab):
+        raise ReadBackError(f"the block '{block}' cuts without an offset.")
     bulge = 0.0
     if motion in (2, 3):
         bulge = _bulge(begin, target, complex(given["I"], given["J"]) * _MM, motion == 3, block)
-    control.segments.append((begin, target, bulge))
+    along = control.way_out if control.side == 40 else control.segments
+    along.append((begin, target, bulge))
 
 
 def _bulge(start: complex, end: complex, to_centre: complex, left: bool, block: str) -> float:
@@ -233,10 +257,10 @@ def _bulge(start: complex, end: complex, to_centre: complex, left: bool, block: 
 def _finish(control: _Control, lead_out: tuple[complex, complex]) -> None:
     if not control.segments:
         raise ReadBackError("an offset is taken off before anything is cut.")
-    start, end, bulge = (np.array(values) for values in zip(*control.segments, strict=True))
-    if (end[:-1] != start[1:]).any() or start[0] != control.lead_in[1]:
+    run = _chain(control.segments)
+    if (run.end[:-1] != run.start[1:]).any() or run.start[0] != control.lead_in[1]:
         raise ReadBackError("a contour of the program does not close.")
-    one = Pass(Loop(start, end, bulge), control.side, control.register, control.lead_in, lead_out)
+    one = Pass(run, control.side, control.register, control.lead_in, lead_out)
     (control.tab if control.stops else control.wall).append(one)
     control.side = 40
 
@@ -265,12 +289,11 @@ def check_program(text: str, flat: FlatPart, edm: Edm) -> list[Cut]:
             raise ReadBackError(f"{label}: it runs clockwise.")
         if (loop.clearance(cut.start) > 0.0) != outer:
             raise ReadBackError(f"{label}: the wire is threaded in the material.")
-        if cut.wall[0].lead_in[0] != cut.start or cut.tab[-1].lead_out[1] != cut.start:
-            raise ReadBackError(f"{label}: it does not lead out as it led in.")
         passes = wire_passes(flat.contours, edm, len(cut.wall))
         shift = shifts.get(flat.cut_order[number - 1], 0.0)
         offsets = [one.offset + shift for one in passes]
         _refuse_other_passes(label, cut, registers, offsets, outer=outer)
+        _refuse_other_way_out(label, cut, offsets[0])
         _refuse_other_shape(label, loop, contour, flat, edm, outer=outer)
     return cuts
 
@@ -279,9 +302,8 @@ def _refuse_other_passes(
     label: str, cut: Cut, registers: dict[int, float], offsets: list[float], *, outer: bool
 ) -> None:
     """Every pass replayed: the wire at its offset from the contour, in the waste, to and fro."""
-    loop = cut.loop
-    begin, kerf = cut.wall[0].segments.start[0], offsets[0]
-    turn = begin
+    loop, kerf = cut.loop, offsets[0]
+    turn = cut.wall[0].segments.start[0]
     for passes in (cut.wall, cut.tab):
         for number, (one, offset) in enumerate(zip(passes, offsets, strict=True), start=1):
             name = f"{label}, pass {number}{' of the tab' if passes is cut.tab else ''}"
@@ -290,9 +312,9 @@ def _refuse_other_passes(
                     f"{name}: its register {one.register} holds "
                     f"{registers.get(one.register, 0.0) * 1e3:.4f} mm, not {offset * 1e3:.4f} mm."
                 )
-            first = passes[0]
-            same = first.segments if number % 2 else first.backward()
-            if not _is_same(one.segments, same):
+            if passes is cut.tab:
+                _refuse_other_overlap(name, one, cut.bare_tab, len(passes) - number, number)
+            elif not _is_same(one.segments, _ways(passes[0].segments)[(number - 1) % 2]):
                 raise ReadBackError(f"{name}: it does not run along the pass before it.")
             if one.segments.start[0] != turn:
                 raise ReadBackError(f"{name}: it does not begin where the wire is.")
@@ -307,12 +329,44 @@ def _refuse_other_passes(
             middle = path.start[len(path.start) // 2]
             if (loop.clearance(middle) > 0.0) != outer:
                 raise ReadBackError(f"{name}: G{one.side} puts the wire into the material.")
-            ends = [one.lead_out[1]] if passes is cut.wall or number < len(offsets) else []
-            for place in ends:
-                if abs(loop.clearance(place) - (kerf if outer else -kerf)) > _FOLLOWS:
-                    raise ReadBackError(f"{name}: it does not turn in the middle of the kerf.")
-    if turn != begin:
-        raise ReadBackError(f"{label}: its tab does not end where it began.")
+            if abs(loop.clearance(one.lead_out[1]) - (kerf if outer else -kerf)) > _FOLLOWS:
+                raise ReadBackError(f"{name}: it does not turn in the middle of the kerf.")
+
+
+def _refuse_other_overlap(name: str, one: Pass, tab: Loop, later: int, number: int) -> None:
+    """The tab whole, and what the last passes run over of the finished wall on either side."""
+    same = _ways(tab)[later % 2]
+    inner = _part(one.segments, same.start[0], same.end[-1])
+    if not _is_same(inner, same):
+        raise ReadBackError(f"{name}: it does not run along the tab.")
+    over = OVERLAP_SHARE * tab.perimeter
+    first = int(np.flatnonzero(one.segments.start == same.start[0])[0])
+    lengths = one.segments.lengths
+    found = lengths[:first].sum(), lengths[first + len(inner.start) :].sum()
+    wanted = over * (later == 0 and number > 1), over * (later < 2)
+    if not np.allclose(found, wanted, rtol=0.0, atol=1.1 * NO_PIECE):
+        raise ReadBackError(
+            f"{name}: it runs {found[0] * 1e3:.4f} and {found[1] * 1e3:.4f} mm over the wall, "
+            f"not {wanted[0] * 1e3:.4f} and {wanted[1] * 1e3:.4f} mm."
+        )
+
+
+def _refuse_other_way_out(label: str, cut: Cut, kerf: float) -> None:
+    """Along the kerf to where the cut began, then as it came."""
+    came, out = cut.wall[0].lead_in, cut.way_out
+    if came[0] != cut.start or not len(out.end) or out.end[-1] != cut.start or out.bulge[-1]:
+        raise ReadBackError(f"{label}: it does not lead out as it led in.")
+    lead = Loop(np.array(came[:1]), np.array(came[1:]), np.zeros(1))
+    if lead.distances(out.start[-1:], np.zeros(1, int))[0] > _FOLLOWS:
+        raise ReadBackError(f"{label}: it does not lead out as it led in.")
+    along = out.part(slice(-1))
+    if len(along.end) and np.abs(nearest_distances(along, cut.loop) - kerf).max() > _FOLLOWS:
+        raise ReadBackError(f"{label}: its way out leaves the kerf beside the contour.")
+
+
+def _ways(loop: Loop) -> tuple[Loop, Loop]:
+    """A chain forward and backward."""
+    return loop, loop.backward()
 
 
 def _is_same(one: Loop, other: Loop) -> bool:

@@ -45,6 +45,14 @@ class Loop:
     end: ComplexArray
     bulge: FloatArray
 
+    def backward(self) -> Loop:
+        """The other way round."""
+        return Loop(self.end[::-1], self.start[::-1], -self.bulge[::-1])
+
+    def part(self, chosen: slice) -> Loop:
+        """Some of its segments, one after the other; not closed."""
+        return Loop(self.start[chosen], self.end[chosen], self.bulge[chosen])
+
     @property
     def sweep(self) -> FloatArray:
         """Signed sweep of every segment (k,), rad."""

@@ -95,11 +95,54 @@ class OpenChain:
         """From its end to its begin."""
         return OpenChain(self.points[::-1], -self.bulges[::-1])
 
+    def joined(self, after: OpenChain) -> OpenChain:
+        """It, and a chain that begins where it ends."""
+        return OpenChain(
+            np.concatenate([self.points, after.points[1:]]),
+            np.concatenate([self.bulges, after.bulges]),
+        )
+
+    def divided(self, place: float) -> tuple[OpenChain, OpenChain]:
+        """What lies before and behind a way along it, m: a joint where one is within `NO_PIECE`."""
+        chord = np.diff(self.points)
+        lengths = np.abs(chord) / np.sinc(2.0 * np.arctan(self.bulges) / math.pi)
+        ends = np.cumsum(lengths)
+        segment = int(np.searchsorted(ends, place))
+        left, long = float(ends[segment]) - place, float(lengths[segment])
+        first = segment + (2.0 * left < long)
+        if min(left, long - left) < NO_PIECE and 0 < first < len(self.bulges):
+            return (
+                OpenChain(self.points[: first + 1], self.bulges[:first]),
+                OpenChain(self.points[first:], self.bulges[first:]),
+            )
+        share, quarter = 1.0 - left / long, math.atan(float(self.bulges[segment]))
+        reach = share if quarter == 0.0 else math.sin(2.0 * share * quarter) / math.sin(2 * quarter)
+        turned = np.exp(-2j * (1.0 - share) * quarter)
+        at = self.points[segment] + chord[segment] * reach * turned
+        before = OpenChain(
+            np.append(self.points[: segment + 1], at),
+            np.append(self.bulges[:segment], math.tan(share * quarter)),
+        )
+        behind = OpenChain(
+            np.concatenate([[at], self.points[segment + 1 :]]),
+            np.append(math.tan((1.0 - share) * quarter), self.bulges[segment + 1 :]),
+        )
+        return before, behind
+
     def beside(self, distance: float) -> complex:
         """The place to the left of its begin, m."""
         along = self.points[1] - self.points[0]
         along *= np.exp(-2j * math.atan(float(self.bulges[0]))) / np.abs(along)
         return complex(self.points[0] + 1j * distance * along)
+
+    def moved(self, distance: float) -> OpenChain:
+        """It, to the left: an arc becomes one of the same centre and sweep."""
+        along = np.diff(self.points)
+        along /= np.abs(along)
+        half = np.exp(2j * np.arctan(self.bulges))
+        leaving, arriving = along / half, along * half
+        normals = 1j * np.append(leaving, arriving[-1])
+        return OpenChain(self.points + distance * normals, self.bulges)
 
 
 def contour_name(number: int) -> str:
@@ -242,29 +285,5 @@ def split_for_tab(contour: ArcContour, tab: float) -> tuple[OpenChain, OpenChain
         Together the contour, from its first joint round to it.
     """
     start = as_complex(contour.points)
-    chord = np.roll(start, -1) - start
-    lengths = np.abs(chord) / np.sinc(contour.sweeps / (2.0 * math.pi))
-    ends = np.cumsum(lengths)
-    place = float(ends[-1]) - tab
-    segment = int(np.searchsorted(ends, place))
-    left = float(ends[segment]) - place
-    joints = np.append(start, start[0])
-    first = segment + (2.0 * left < float(lengths[segment]))
-    if min(left, float(lengths[segment]) - left) < NO_PIECE and 0 < first < len(start):
-        return (
-            OpenChain(joints[: first + 1], contour.bulges[:first]),
-            OpenChain(joints[first:], contour.bulges[first:]),
-        )
-    share = 1.0 - left / float(lengths[segment])
-    points, _ = contour.evaluate(np.array([share]))
-    at = complex(*points[segment, 0])
-    quarter = math.atan(float(contour.bulges[segment]))
-    before = OpenChain(
-        np.append(joints[: segment + 1], at),
-        np.append(contour.bulges[:segment], math.tan(share * quarter)),
-    )
-    after = OpenChain(
-        np.concatenate([[at], joints[segment + 1 :]]),
-        np.append(math.tan((1.0 - share) * quarter), contour.bulges[segment + 1 :]),
-    )
-    return before, after
+    whole = OpenChain(np.append(start, start[0]), contour.bulges)
+    return whole.divided(whole.length - tab)
