@@ -27,6 +27,7 @@ from cqdd_design.exporting.edm.cut_facts import (
 )
 from cqdd_design.exporting.edm.flat_parts import reach_of
 from cqdd_design.exporting.edm.wire_path import segmented
+from cqdd_design.exporting.sheets.behind import edges_behind
 from cqdd_design.exporting.sheets.blocks import Row, Words
 from cqdd_design.exporting.sheets.canvas import Canvas, render
 from cqdd_design.exporting.sheets.drawing import AXIS, OUTLINE, SMALL, TEXT, SheetDrawing, new_sheet
@@ -48,6 +49,8 @@ SECTION = complex(246.0, 174.0)
 MOST_REACH, MOST_THICKNESS = 72.5, 34.0
 
 _MM = 1e3
+_APART = 0.7
+"""Edges behind a cut that are nearer to another than two wide lines are drawn once, mm of paper."""
 _WITHIN = 0.75
 """Share of the way to the wall of a ring up to which a note within begins."""
 
@@ -241,7 +244,6 @@ def _section(sheet: SheetDrawing, facts: CutFacts) -> None:
     wide = factor * flat.thickness
     left = SECTION - 0.5 * wide
     walls = _crossings(facts)
-    high = factor * walls[-1]
     for one, two in zip(walls[::2], walls[1::2], strict=True):
         corner, height = left + 1j * factor * one, factor * (two - one)
         sheet.hatch(corner, wide, height)
@@ -249,16 +251,34 @@ def _section(sheet: SheetDrawing, facts: CutFacts) -> None:
     for one, two in zip(walls[1:-1:2], walls[2:-1:2], strict=True):
         for x in (0.0, wide):
             sheet.line(left + x + 1j * factor * one, left + x + 1j * factor * two, OUTLINE)
+    high = _edges_behind(sheet, facts, left, walls)
     sheet.line(left - 4.0, left + wide + 4.0, AXIS)
     title = "A-A"
     sheet.text(SECTION - 0.5 * text_width(title, 3.5) + 1j * (MOST_REACH + 24.0), title, 3.5)
     words = f"<> {facts.thickness_text}"
-    # Above the extension line of the largest diameter, which a lobe has that the section misses.
+    # Above the extension line of the largest diameter, which a lobe has that stands above the cut.
     above = max(high + 8.0, factor * reach_of(flat.shape.outer) + 3.0)
     sheet.linear(left + 1j * above, left + 1j * high, left + wide + 1j * high, 0.0, words)
     _diameters(sheet, facts, left, wide)
     datum = left + 0.5j * factor * (walls[-1] + walls[-2])
     _faces(sheet, left, datum, ground=not facts.moulded)
+
+
+def _edges_behind(sheet: SheetDrawing, facts: CutFacts, left: complex, walls: list[float]) -> float:
+    """Edges seen behind the cut, and the faces out to them; how high they reach, mm of paper."""
+    factor, wide = _MM * sheet.scale, _MM * sheet.scale * facts.flat.thickness
+    drawn = [factor * one for one in walls]
+    lowest, highest = drawn[0], drawn[-1]
+    for edge in (factor * one for one in edges_behind(facts.flat.contours)):
+        if min(abs(edge - one) for one in drawn) < _APART:
+            continue
+        drawn.append(edge)
+        sheet.line(left + 1j * edge, left + wide + 1j * edge, OUTLINE)
+    for end, reach in ((lowest, min(drawn)), (highest, max(drawn))):
+        if reach != end:
+            for x in (0.0, wide):
+                sheet.line(left + x + 1j * end, left + x + 1j * reach, OUTLINE)
+    return max(drawn)
 
 
 def _crossings(facts: CutFacts) -> list[float]:
