@@ -180,10 +180,12 @@ def test_ap242_carries_the_sizes_that_a_drawing_gives_a_zone(tmp_path: Path) -> 
         size = XCAFDoc_Dimension.Set_s(labels.Value(i)).GetObject()
         values = size.GetValue(), size.GetLowerTolValue(), size.GetUpperTolValue()
         read.append((*(round(value, 6) for value in values), faces.Length()))
-    # 50 k6, 22 H7; 4 H7 of the five seats of pins and of two dowels, each with its faces.
+    # 50 k6, 22 H7, the centring bore; 4 H7 of the five seats of pins and of two dowels, each with
+    # its faces.
     assert sorted(read) == [
         (4.0, 0.0, 0.012, 2),
         (4.0, 0.0, 0.012, 5),
+        (18.4, 0.0, 0.021, 1),
         (22.0, 0.0, 0.021, 1),
         (50.0, 0.002, 0.018, 1),
     ]

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -22,6 +24,7 @@ from cqdd_design.geometry.contours import Circle
 from cqdd_design.machine import resolve
 from cqdd_design.machine.centring import centring, most_off_centre, most_reading
 from cqdd_design.report.judgement.labels import label_of
+from cqdd_design.solids.features.carrier import OUTPUT_REGISTER
 from cqdd_design.solids.features.housing import INDICATOR_BAND
 from cqdd_design.solids.features.kinds import TrueFace
 
@@ -312,3 +315,39 @@ def test_without_load_parts_press_where_they_overlap(model: ContactModel, seed: 
     assert loose.any()
     assert most[tight].min(initial=np.inf) > 1.0
     assert most[loose].max() < 1e-9
+
+
+@pytest.mark.parametrize("name", ["paper", "one disc"])
+def test_what_is_driven_is_centred_by_a_bore_or_by_dowels(name):
+    """The bore runs from the shoulder of the shaft's bearing to the output's face, all H7."""
+    machine = resolve(known_design(name))
+    carrier, shaft = machine.layout.carrier, machine.layout.shaft
+    plate = part_named(machine.parts, "carrier plate")
+    (bore,) = (one for one in plate.features if one.name == OUTPUT_REGISTER)
+    assert (bore.zone, bore.refers, bore.inside) == ("H7", "A", True)
+    assert bore.diameter == 2.0 * shaft.support.lip_radius
+    # Nothing of the shaft stands in it.
+    depth = carrier.plate_top - max(carrier.shaft_seat_top, shaft_end(machine))
+    assert bore.top - bore.bottom == pytest.approx(depth)
+    radius = min(
+        hole.radius
+        for layer in plate.shape.layers
+        if layer.bottom <= bore.bottom + 1e-9 and layer.top > bore.bottom
+        for hole in layer.shape.holes
+        if isinstance(hole, Circle) and not np.any(hole.centre)
+    )
+    assert radius == pytest.approx(0.5 * bore.diameter)
+    (said,) = (one for one in AssemblyFacts(machine).notes() if one.startswith("What is driven"))
+    assert f"\u00d8{1e3 * bore.diameter:.4g} H7 and {1e3 * depth:.3g} mm deep" in said
+    assert carrier.flange_dowels.count
+    assert said.endswith("or by the dowels of the output's face: the other needs play then.")
+    bare = replace(carrier, flange_dowels=replace(carrier.flange_dowels, count=0))
+    facts = AssemblyFacts(machine)
+    facts.machine = SimpleNamespace(layout=replace(machine.layout, carrier=bare))
+    assert facts.driven().endswith(" mm deep.")
+
+
+def shaft_end(machine):
+    """Height of the eccentric shaft's output end, m."""
+    shafts = [one for one in machine.parts if one.name.startswith("eccentric shaft")]
+    return max(layer.top for one in shafts for layer in one.shape.layers)

@@ -20,6 +20,7 @@ import numpy as np
 
 from cqdd_design.exporting.printing.marks import mark_width, marks
 from cqdd_design.geometry.contours import ArcContour, Circle, PlanarPart
+from cqdd_design.solids.features.carrier import OUTPUT_REGISTER
 from cqdd_design.solids.layers import Layer, Stack, cylinder
 from cqdd_design.solids.part import Colour, Part, on_axis
 from cqdd_design.solids.poses import HOUSING
@@ -70,7 +71,9 @@ class Coupon:
 
 def coupon_sizes(parts: Iterable[Part]) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """Diameters of the fits of printed parts that go on a coupon, and those that do not, m."""
-    every = sorted({round(fit.diameter, 7) for part in parts for fit in part.fits})
+    # What is driven by the output is printed elsewhere, or not at all.
+    own = (fit for part in parts for fit in part.fits if fit.name != OUTPUT_REGISTER)
+    every = sorted({round(fit.diameter, 7) for fit in own})
     fitting = [one for one in every if LEAST <= one <= GREATEST]
     # Evenly over what there is, the least and the greatest among them.
     places = np.unique(np.linspace(0, len(fitting) - 1, MOST_SIZES).round().astype(int))

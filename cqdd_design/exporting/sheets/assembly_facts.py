@@ -17,7 +17,8 @@ from cqdd_design.machine.screws import tightened_screws
 from cqdd_design.machine.sealing import sealing
 from cqdd_design.machine.set_heights import set_heights
 from cqdd_design.solids.apart import Step, taken_apart, unit_name
-from cqdd_design.solids.features.kinds import AxialThread, Joint
+from cqdd_design.solids.features.carrier import OUTPUT_REGISTER
+from cqdd_design.solids.features.kinds import AxialThread, Joint, Seat
 from cqdd_design.solids.tool_access import reaches
 
 if TYPE_CHECKING:
@@ -108,6 +109,7 @@ class AssemblyFacts:
         said += set_heights(self.machine)
         said.append(self._nut())
         said += [sealing(self.machine), centring(self.machine)]
+        said.append(self.driven())
         said.append(
             f"Turned by hand, the output's face and seat run true to the housing within {_RUN_OUT} "
             "mm (ISO 2768-K); the parts' own run-outs stand on their sheets."
@@ -123,6 +125,20 @@ class AssemblyFacts:
             f"Bearing nut, {thread.designation}: as firm as a hook spanner for \u00d8{outside:.4g} "
             f"makes it by hand; it holds the ring to its shoulder and sets no play. {NUT_LOCKING}"
         )
+
+    def driven(self) -> str:
+        """How what the output drives is centred on it."""
+        (plate,) = (part for part in self.parts if part.name == "carrier plate")
+        seats = (one for one in plate.features if isinstance(one, Seat))
+        (bore,) = (one for one in seats if one.name == OUTPUT_REGISTER)
+        by_spigot = (
+            "What is driven is centred by a spigot in the output's bore, "
+            f"\u00d8{1e3 * bore.diameter:.4g} {bore.zone} and {1e3 * (bore.top - bore.bottom):.3g} "
+            "mm deep"
+        )
+        if not self.machine.layout.carrier.flange_dowels.count:
+            return f"{by_spigot}."
+        return f"{by_spigot}, or by the dowels of the output's face: the other needs play then."
 
     def _grease(self) -> str:
         fill = grease_fill(self.machine)

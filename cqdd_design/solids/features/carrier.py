@@ -29,6 +29,8 @@ from cqdd_design.solids.layout import CarrierLayout, ColumnLayout, ShaftLayout
 
 OUTPUT_BOLTS = 6
 """In the output's face."""
+OUTPUT_REGISTER = "centring bore of the output"
+"""In the plate, open to the output's face: for a spigot of what is driven."""
 _NUT_TURNS = 4.0
 """Least turns of the nut's thread in its height."""
 _FLANGE_POSITION = 20e-6
@@ -90,6 +92,10 @@ def _plate_seats(carrier: CarrierLayout, shaft: ShaftLayout) -> list[Feature]:
             "shoulder of the shaft bearing", seat_top,
             shaft.support.lip_radius, 0.5 * support.outer_diameter, "down", bore,
             fillet=support.largest_fillet, refers="AB", along=BEARING_FACE,
+        ),
+        seat(
+            OUTPUT_REGISTER, 2.0 * shaft.support.lip_radius, seat_top, carrier.plate_top,
+            zones.OUTPUT_REGISTER, inside=True, refers="A",
         ),
         AxialThread(
             "thread of the nut", thread, groove.pitch, _axial(thread, groove.pitch), "6g",
