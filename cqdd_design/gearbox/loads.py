@@ -8,7 +8,9 @@ with the torque and Hertz pressures with its root, so they are found once, at 1 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
+from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -125,6 +127,13 @@ def rigid_maxima(stages: Stages, torque: float) -> RigidMaxima:
     torque : float
         Output torque, N m, positive.
     """
+    return _maxima_at_one(astuple(stages)).at(torque)
+
+
+@lru_cache(maxsize=4)
+def _maxima_at_one(values: tuple[Any, ...]) -> RigidMaxima:
+    """At 1 N m. Analysis, life and the cam's bearing of one design ask for the same."""
+    stages = Stages(*values)
     n, pins = stages.lobe_count, stages.pin_count
     disc_torque = 1.0 / stages.disc_count
     ring_period = kinematics.ring_period(n)
@@ -144,7 +153,7 @@ def rigid_maxima(stages: Stages, torque: float) -> RigidMaxima:
     pressure = period_maximum(ring_pressure, ring_period, samples)
     pin = period_maximum(pin_force, kinematics.output_period(n, pins), samples)
     cam = np.array([_cam_peak(stages, disc_torque, phase) for phase in stages.phases])
-    at_one = RigidMaxima(
+    return RigidMaxima(
         torque=1.0,
         ring_force=force,
         output_pin_force=pin,
@@ -153,7 +162,6 @@ def rigid_maxima(stages: Stages, torque: float) -> RigidMaxima:
         output_pressure=float(stages.pin_pressures(np.asarray(pin))),
         cam_load_by_disc=cam,
     )
-    return at_one.at(torque)
 
 
 def _cam_peak(stages: Stages, disc_torque: float, phase: float) -> float:
