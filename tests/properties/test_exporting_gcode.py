@@ -219,8 +219,11 @@ def _length(moves):
 def test_the_last_pass_runs_over_the_finished_wall_on_both_sides_of_the_tab(
     paper, parts, index, count
 ):
-    flat = parts[index]
-    for cut in _cuts(program(flat, paper, ExportOptions(passes=count))):
+    text = program(parts[index], paper, ExportOptions(passes=count))
+    told = " ".join(line.strip("()") for line in text.splitlines())
+    both = "BEGINS AND " if count > 1 else ""
+    assert f"THE LAST PASS OF A TAB {both}ENDS 10% OF ITS LENGTH BEYOND IT" in told
+    for cut in _cuts(text):
         wall, tab = _passes(cut)
         one_way = wall[0][1:-1]
         whole = _points(one_way, 2 + 20_000 // len(one_way))

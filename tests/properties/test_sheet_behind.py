@@ -10,7 +10,6 @@ from cqdd_design.exporting.edm.wire_path import segmented
 from cqdd_design.exporting.sheets.behind import edges_behind
 from cqdd_design.exporting.sheets.cut_sheet import SECTION, draw_cut_sheet, sheet_scale
 from cqdd_design.exporting.sheets.drawing import SheetDrawing
-from cqdd_design.geometry.contours import Circle
 from cqdd_design.machine import resolve
 
 STEP = 5e-6
@@ -19,8 +18,7 @@ JUMP = 0.15e-3
 
 def _depths(contours, across):
     """How far below the axis a line of sight meets a wall, m; 0 where it begins in material."""
-    points = [c.sample(1e-8) if not isinstance(c, Circle) else segmented(c).sample(1e-8)
-              for c in contours]  # fmt: skip
+    points = [segmented(one).sample(1e-8) for one in contours]
     found = np.full(len(across), np.inf)
     inside = np.zeros(len(across), bool)
     for loop in points:

@@ -207,6 +207,7 @@ def _heading(
 ) -> list[str]:
     edm, fit = design.edm, contour_fit(flat)
     whole = sum(contour_times(flat, len(passes)))
+    over = "BEGINS AND ENDS" if len(passes) > 1 else "ENDS"
     side, free = (math.ceil(_MM * one) for one in (blank_side(path), 2.0 * cut_radius(path)))
     return [
         f"PART {design.file_name}-{flat.label}, CUT {flat.quantity}",
@@ -228,7 +229,7 @@ def _heading(
         f"{len(flat.contours)} CONTOURS, HOLES FIRST, OUTER CONTOUR LAST; PASSES RUN TO AND FRO",
         f"EACH STOPS AT M01 BEFORE A TAB OF UP TO {_MM * options.tab_length:g} MM: HOLD THE SLUG",
         "TABS ARE WHERE NO TOOTH COMES, IN HOLES WHERE A PIN PUSHES LEAST; THE LAST PASS OF A TAB",
-        f"BEGINS AND ENDS {OVERLAP_SHARE:.0%} OF ITS LENGTH BEYOND IT, ON THE FINISHED WALL",
+        f"{over} {OVERLAP_SHARE:.0%} OF ITS LENGTH BEYOND IT, ON THE FINISHED WALL",
         f"ABOUT {minutes(whole)} A PIECE, AN ESTIMATE",
         "M60 THREADS AND M50 CUTS THE WIRE ON MANY CONTROLS; HERE THEY ARE COMMENTS AT AN M00,",
         "REPLACE BOTH BY YOUR OWN CODES FOR AUTOMATIC THREADING",

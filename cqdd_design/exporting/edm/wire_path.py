@@ -225,7 +225,7 @@ def offset_contour(contour: Contour, edm: Edm, *, outer: bool, feature: str) -> 
                 else f"lower edm.spark_gap below {worst * 1e6:.4g} um."
             )
         )
-    leaving, arriving = _directions(nominal)
+    leaving, arriving = directions(nominal)
     corner = np.angle(leaving / arriving)
     if (np.sign(side) * corner > _CORNER).any():
         place = as_complex(nominal.points)[int(np.argmax(np.sign(side) * corner))]
@@ -237,7 +237,7 @@ def offset_contour(contour: Contour, edm: Edm, *, outer: bool, feature: str) -> 
     return _moved(nominal, side, leaving, arriving, np.abs(corner) > _CORNER)
 
 
-def _directions(contour: ArcContour) -> tuple[ComplexArray, ComplexArray]:
+def directions(contour: ArcContour) -> tuple[ComplexArray, ComplexArray]:
     """Unit directions leaving and arriving at every joint (k,)."""
     start = as_complex(contour.points)
     along = np.roll(start, -1) - start

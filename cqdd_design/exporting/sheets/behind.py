@@ -15,7 +15,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from cqdd_design.exporting.edm.wire_path import segmented
+from cqdd_design.exporting.edm.wire_path import directions, segmented
 from cqdd_design.geometry.contours import ArcContour, ComplexArray, Contour, FloatArray, as_complex
 
 _SAMPLED = 1e-7
@@ -69,6 +69,6 @@ def _turning(points: ComplexArray, *, outer: bool) -> list[complex]:
 
 
 def _corners(contour: ArcContour) -> list[complex]:
-    first, last = (as_complex(contour.evaluate(np.array([at]))[1])[:, 0] for at in (0.0, 1.0))
-    turns = np.abs(np.angle(first * np.roll(last, 1).conj())) > _CORNER
+    leaving, arriving = directions(contour)
+    turns = np.abs(np.angle(leaving / arriving)) > _CORNER
     return list(as_complex(contour.points)[turns])

@@ -93,7 +93,7 @@ def readme_text(parts: Sequence[CutFacts], options: ExportOptions) -> str:
                 "G90 G21, arcs as G02 and G03 with I and J from the start of each arc. "
                 f"{_passes(parts[0], options)} Each contour stops at M01 before its last "
                 f"{_MM * options.tab_length:g} mm at most, the tab: hold the slug, then go on; the "
-                "tab takes the same passes, the last two a little further over the finished wall.",
+                "tab takes the same passes, the last a little further over the finished wall.",
                 "What a contour runs along is a subprogram, forward and backward; passes run to "
                 "and fro. G41 and G42 take the offset of each pass from a register of its own, "
                 "contours with a seat from 11 on; the values are in the program. They are wire "
