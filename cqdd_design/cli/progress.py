@@ -1,9 +1,9 @@
 """How far work is: a bar on a terminal, with the time left where work done tells it.
 
 Equal things, such as gearboxes, are counted, and the time left follows from those that are done.
-Stages of work are unlike each other, and rounds of a search are not known beforehand: for those the
-time left is said to be unknown. A bar of work that was done ends at 100 % and stays; one of work
-that broke off is wiped.
+Stages of work are unlike each other: earlier runs tell about how long they take. Where there were
+none, and of rounds of a search, the time left is said to be unknown. A bar of work that was done
+ends at 100 % and stays; one of work that broke off is wiped.
 """
 
 from __future__ import annotations
@@ -45,9 +45,10 @@ class Bar:
         self._draw(done / total, f"{done} of {total} {noun}", left)
         self._complete = done >= total
 
-    def stage(self, number: int, total: int, text: str) -> None:
-        """Show which stage begins."""
-        self._draw((number - 1) / total, f"{number} of {total}: {text}", self._since())
+    def stage(self, number: int, total: int, text: str, left: float | None = None) -> None:
+        """Show which stage begins, and about how many seconds are left where that is known."""
+        after = self._since() if left is None else f" (about {duration(left)} left)"
+        self._draw((number - 1) / total, f"{number} of {total}: {text}", after)
 
     def round(self, text: str) -> None:
         """Show what a search does that takes nobody knows how many rounds."""

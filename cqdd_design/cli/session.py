@@ -13,7 +13,7 @@ import itertools
 import os
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Annotated, Any, TextIO
+from typing import TYPE_CHECKING, Annotated, Any, Protocol, TextIO
 
 import typer
 
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from cqdd_design.actuator.specimen import Specimen
+    from cqdd_design.cli.stage_times import StageTimes
     from cqdd_design.design import Design
     from cqdd_design.files import WrittenFile
     from cqdd_design.results import Check
@@ -44,6 +45,14 @@ _COMMON: dict[str, Any] = {
     ],
     "debug": Annotated[bool, typer.Option("--debug", help="Show the traceback of an error.")],
 }
+
+
+class Tell(Protocol):
+    """Tells which stage begins, and how many seconds are left where the caller knows."""
+
+    def __call__(self, text: str, left: float | None = None) -> None:
+        """Tell it."""
+
 
 _LINES_WITHOUT_TERMINAL = 10
 """Of progress in a log, where a bar cannot move."""
@@ -127,6 +136,7 @@ class Output:
         self.quiet = quiet
         self.warnings: list[str] = []
         self._bar: Bar | None = None
+        self._times: StageTimes | None = None
         standard_output()
 
     def say(self, *lines: str) -> None:
@@ -173,17 +183,21 @@ class Output:
             self.end_progress(done=True)
             self._bar = None
 
-    def stages(self, total: int) -> Callable[[str], None]:
+    def stages(self, total: int) -> Tell:
         """A function that tells, on stderr, which of about `total` stages of work begins.
 
-        A bar on a terminal; elsewhere one line a stage.
+        A bar on a terminal, with the seconds left that are told, else as the last run had them;
+        elsewhere one line a stage.
         """
-        numbers = itertools.count(1)
+        from cqdd_design.cli.stage_times import StageTimes
 
-        def tell(text: str) -> None:
+        numbers = itertools.count(1)
+        self._times = times = StageTimes(self.command, total)
+
+        def tell(text: str, left: float | None = None) -> None:
             number = min(next(numbers), total)
             if (bar := self._on_terminal()) is not None:
-                bar.stage(number, total, text)
+                bar.stage(number, total, text, times.left(text) if left is None else left)
             else:
                 self.note(f"[{number}/{total}] {text}")
 
@@ -232,6 +246,8 @@ class Output:
             return
         if done and interruption.exit_code() is None:
             self._bar.finish()
+            if self._times is not None:
+                self._times.keep()
         else:
             self._bar.wipe()
 

@@ -184,7 +184,7 @@ def train(
             checkpoint=kept,
             resume=resume,
             command=shlex.join(["cqdd-design", *sys.argv[1:]]),
-            progress=lambda result: tell(result.line),
+            progress=lambda one: tell(one.line, one.seconds * (one.epochs - one.epoch)),
         )
     except KeyboardInterrupt:
         if kept.exists():
