@@ -18,7 +18,7 @@ def _shown() -> list[tuple[str, Path, str]]:
     shown = [(name, output_folder(name), what) for name, what in OUTPUTS.items()]
     shown += [
         ("kept results", cache_folder(), "meshes, gearboxes and times of earlier runs"),
-        ("kernels", kernel_folder(), "compiled on the first use"),
+        ("kernels", kernel_folder(), "compiled on the first use, here and beside"),
     ]
     return [(name, folder.absolute(), what) for name, folder, what in shown]
 

@@ -161,9 +161,9 @@ def missing(
 
 def kernel_folder() -> Path:
     """Where a compiled kernel is kept; the others are beside their code, or all there."""
-    from cqdd_design.files.kernel_cache import cache_place
+    from cqdd_design.files.kernel_cache import KEPT_IN, cache_place
 
-    return cache_place(GEARBOX[0].compiled()._cache)
+    return Path(KEPT_IN) if KEPT_IN else cache_place(GEARBOX[0].compiled()._cache)
 
 
 def compile_kernels(
