@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.catalog.threads import coarse_thread, thread_named
 from cqdd_design.catalog.tightening import GRIP_FRICTION, Clamping
+from cqdd_design.design.reducer import Reducer
 from cqdd_design.machine.machine import Machine
 from cqdd_design.machine.output_loads import output_loads
 from cqdd_design.solids import mounting
@@ -149,9 +150,18 @@ def _cover(machine: Machine) -> ScrewJoint:
         _cover_screws(machine),
         float(loads.radial.max()) / housing.screw_count,
         float(pulled.max()),
-        "an even number of output_pins on a larger circle, on two discs, pushes the carrier less "
-        "to one side",
+        _less_push(machine.design.reducer),
     )
+
+
+def _less_push(reducer: Reducer) -> str:
+    """What pushes the carrier less to one side."""
+    wider = "a larger output_pins.circle_radius"
+    if reducer.disc_count < 2:
+        return f"two discs, and {wider}, push the carrier less to one side"
+    if reducer.output_pins.count % 2:
+        return f"an even number of output_pins, and {wider}, push the carrier less to one side"
+    return f"{wider} pushes the carrier less to one side"
 
 
 def _cover_screws(machine: Machine) -> Tightened:
@@ -168,7 +178,7 @@ def _cover_screws(machine: Machine) -> Tightened:
 
 
 def _mounting(machine: Machine) -> ScrewJoint:
-    """Through the holes between these, into what the actuator is fixed to."""
+    """Between these, from what the actuator is fixed to into the housing's flange."""
     housing, asked = machine.layout.housing, machine.design.requirements
     across, along = mounting.forces(asked, housing.screw_count, housing.bolt_circle_radius)
     return _loaded(
@@ -187,7 +197,8 @@ def _mounting_screws(machine: Machine) -> Tightened:
         housing.screw_count,
         mounting.clamping(
             housing.mount_thread,
-            housing.cover_flange_top - housing.flange_bottom,
+            housing.cover_flange_top - housing.face,
+            housing.face - housing.flange_bottom,
             _housing_metal(machine),
         ),
     )

@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Requirements
+from cqdd_design.environment import give_memory_back
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.gearbox.checks.guide import CHECK_GUIDE
 from cqdd_design.geometry.scale import largest_ring
@@ -278,6 +279,8 @@ def _tried(hunt: Hunt, asked: Requirements) -> _Way:
         _let_go(refusal)
         hunt.in_vain.append(asked)
         return _Way(_without_designs(own), None, refusal)
+    finally:
+        give_memory_back()
     return _Way(_without_designs(own), found, None)
 
 

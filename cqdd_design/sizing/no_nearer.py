@@ -14,6 +14,7 @@ from typing import Generic, NamedTuple, TypeVar
 
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Requirements
+from cqdd_design.environment import give_memory_back
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.sizing.able import CONTINUOUS, PEAK
 from cqdd_design.sizing.frame import Goal
@@ -72,6 +73,8 @@ def size_or_refuse(
             return to_verdict(asked, best_alone=True) if in_vain else to_verdict(asked)
         except InfeasibleError:
             return None
+        finally:
+            give_memory_back()
 
     if ways.words:
         progress(f"What fits at least: {', or '.join(ways.words)}.")

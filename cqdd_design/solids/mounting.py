@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from cqdd_design.catalog.materials import Material, find_material
@@ -31,21 +32,27 @@ def forces(asked: Requirements, count: int, radius: float) -> tuple[float, float
     return across / count, along / count
 
 
-def clamping(thread: float, grip: float, metal: Material) -> Clamping:
-    """A mounting screw of a thread (m) through a flange of a thickness (m).
+def clamping(thread: float, grip: float, engaged: float, metal: Material) -> Clamping:
+    """A mounting screw of a thread (m) from another machine's part into the housing's flange.
 
-    What its thread is in is another machine's; proportions of the head are those of ISO 4762.
+    Proportions of the head are those of ISO 4762. Of the other part nothing is known: of the same
+    metal, one and a half diameters thick.
+
+    Parameters
+    ----------
+    grip, engaged : float
+        Thickness of cover and clamp, and length of the flange's thread, m.
     """
     return Clamping(
         thread=coarse_thread(thread),
         screw=find_material(SCREW_MATERIAL),
         clamped=metal,
-        tapped=None,
+        tapped=metal,
         bearing_outer=1.7 * thread,
         bearing_inner=1.1 * thread,
-        grip=grip,
-        engaged=0.0,
-        faces=1,
+        grip=grip + 1.5 * thread,
+        engaged=engaged,
+        faces=3,
     )
 
 
@@ -64,14 +71,21 @@ def cover_thread(design: Design, thread: float, count: int, grip: float) -> floa
     larger = [mm * 1e-3 for mm in _THREADS if mm * 1e-3 > thread + 1e-9]
 
     def holds(size: float) -> bool:
-        left = clamping(size, grip, metal).least_preload
-        return (count * left - along) * GRIP_FRICTION >= _COVER_RESERVE * force
+        # Of the thread that it is in nothing is known before the flange is laid out.
+        alone = replace(clamping(size, grip - 1.5 * size, 0.0, metal), tapped=None, faces=1)
+        return (count * alone.least_preload - along) * GRIP_FRICTION >= _COVER_RESERVE * force
 
     return next((size for size in (thread, *larger[:_LARGER]) if holds(size)), thread)
 
 
 def mounting_thread(
-    asked: Requirements, count: int, radius: float, least: float, grip: float, metal: Material
+    asked: Requirements,
+    count: int,
+    radius: float,
+    least: float,
+    grip: float,
+    engaged: float,
+    metal: Material,
 ) -> float:
     """The least thread (m) that holds by friction, from `least` (m) to twice that; else the latter.
 
@@ -79,13 +93,13 @@ def mounting_thread(
     ----------
     radius : float
         Of the circle, m.
-    grip : float
-        Thickness of the flange with what is on it, m.
+    grip, engaged : float
+        Of `clamping`, m.
     """
     across, along = forces(asked, count, radius)
     sizes = [mm * 1e-3 for mm in _THREADS if least - 1e-9 <= mm * 1e-3 <= 2.0 * least + 1e-9]
     for size in sizes:
-        held = (clamping(size, grip, metal).least_preload - along) * GRIP_FRICTION
+        held = (clamping(size, grip, engaged, metal).least_preload - along) * GRIP_FRICTION
         if held >= _RESERVE * across:
             return size
     return sizes[-1]

@@ -313,7 +313,8 @@ def _housing(
         count,
         bolt_circle,
         thread,
-        cover_flange_top - flange_bottom,
+        cover_flange_top - face,
+        face - max(flange_bottom, 0.0),
         find_material(design.housing.material),
     )
     # Larger ones leave a wall and the ring's dowels room.

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 
 from cqdd_design.actuator.operating import judge
 from cqdd_design.actuator.shock import simulated_torque
@@ -20,15 +21,34 @@ from cqdd_design.solids.motor_rules import light_rotor
 from cqdd_design.verdict.bore_line import bore_line
 from cqdd_design.verdict.evidence import Evidence
 from cqdd_design.verdict.headline import Figure, backlash, efficiency, mass
+from cqdd_design.verdict.reached import PEAK_LINES, standing_torque
 
 _ARCMIN = math.degrees(1.0) * 60.0
 _ANGLES = 96
 _OUTSIDE: tuple[Node, ...] = ("housing", "cover")
 
 
-def asked_lines(evidence: Evidence) -> tuple[Check, ...]:
-    """One line for each requirement of this chapter that is stated, in the order of the keys."""
-    return tuple(line for chapter in _CHAPTERS for line in chapter(evidence))
+def asked_lines(evidence: Evidence, others: Sequence[Check] = ()) -> tuple[Check, ...]:
+    """One line for each requirement of this chapter that is stated, in the order of the keys.
+
+    Parameters
+    ----------
+    others : sequence of Check
+        The verdict's other lines: what else gives way under the torque of a stop.
+    """
+    chapters: tuple[Callable[[Evidence], Iterator[Check]], ...] = (
+        _speed_at_peak,
+        partial(_shock, others=others),
+        _bore,
+        _mass,
+        _inertia,
+        _backlash,
+        _lost_motion,
+        _stiffness,
+        _efficiency,
+        _surface,
+    )
+    return tuple(line for chapter in chapters for line in chapter(evidence))
 
 
 def _speed_at_peak(evidence: Evidence) -> Iterator[Check]:
@@ -57,19 +77,18 @@ def _speed_at_peak(evidence: Evidence) -> Iterator[Check]:
     )
 
 
-def _shock(evidence: Evidence) -> Iterator[Check]:
+def _shock(evidence: Evidence, others: Sequence[Check] = ()) -> Iterator[Check]:
     machine, actuator = evidence.machine, evidence.actuator
     speed = machine.design.requirements.shock_speed
     if speed <= 0.0:
         return
-    carried = carried_torque(machine)
-    limit = carried.limits[0].torque if carried.limits and not carried.unknown else None
-    if actuator is None or limit is None:
-        why = evidence.actuator_missing or f"not known: limits of {', '.join(carried.unknown)}"
+    limit, gives_way, unknown = _stands(evidence, others)
+    if actuator is None or limit is None or unknown:
+        why = evidence.actuator_missing or f"not known: limits of {', '.join(unknown)}"
         yield build_check("SHOCK-STOP", None, limit, why, "see what is not known")
         return
     torque = simulated_torque(actuator, speed)
-    told = f"{torque:.4g} N*m from {speed:.4g} rad/s; first to give way: {carried.limits[0].words}"
+    told = f"{torque:.4g} N*m from {speed:.4g} rad/s; first to give way: {gives_way}"
     more = "take a gearbox that carries more"
     line = build_check("SHOCK-STOP", torque, limit, told, more)
     if line.status == "fail" and not machine.stiff:
@@ -84,6 +103,24 @@ def _shock(evidence: Evidence) -> Iterator[Check]:
             stay = f"stay below {rounded_down(slower):g} rad/s where the output may be stopped"
             line = replace(line, remedy=f"{stay}, or {more}")
     yield line
+
+
+def _stands(
+    evidence: Evidence, others: Sequence[Check]
+) -> tuple[float | None, str, tuple[str, ...]]:
+    """The torque that the gearbox stands, N m, what gives way there, and what is not known."""
+    carried = carried_torque(evidence.machine)
+    unknown = (
+        *carried.unknown,
+        *(line.id for line in others if line.id in PEAK_LINES and not line.known),
+    )
+    if not carried.limits:
+        return None, "", unknown
+    limit, gives_way = carried.limits[0].torque, carried.limits[0].words
+    stood = standing_torque(evidence, others, limit)
+    if stood is not None and stood[0] < limit:
+        limit, gives_way = stood
+    return limit, gives_way, unknown
 
 
 def _bore(evidence: Evidence) -> Iterator[Check]:
@@ -210,17 +247,3 @@ def _of_figure(check_id: str, figure: Figure, limit: float, cure: str, why: str 
     if figure.value is not None:
         told = f"{figure.value:.4g} {figure.unit}".strip()
     return build_check(check_id, figure.value, limit, told, cure, model=figure.basis)
-
-
-_CHAPTERS: tuple[Callable[[Evidence], Iterator[Check]], ...] = (
-    _speed_at_peak,
-    _shock,
-    _bore,
-    _mass,
-    _inertia,
-    _backlash,
-    _lost_motion,
-    _stiffness,
-    _efficiency,
-    _surface,
-)

@@ -66,7 +66,7 @@ def verdict_lines(evidence: Evidence) -> tuple[Check, ...]:
         uncooled="" if machine.design.drive.thermal_resistance else evidence.heat_missing,
     )
     drawn = yield_line(machine, evidence.drawn, evidence.drawn_missing, lines)
-    return (*lines, drawn, *asked_lines(evidence))
+    return (*lines, drawn, *asked_lines(evidence, lines))
 
 
 def _carried(machine: Machine) -> dict[str, Check]:

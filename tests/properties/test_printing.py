@@ -316,7 +316,8 @@ def test_the_bill_has_the_inserts_that_the_files_have_holes_for(machine, every):
 def test_inserts_go_in_from_the_face(every):
     """Through the counterbores over the threads of the housing, which are narrower than they."""
     housing = next(one for one in every if one.made.name == "housing").made
-    (deep,) = (t for t in housing_threads(every) if t.insert is not None)
+    deep, mounting = (t for t in housing_threads(every) if t.insert is not None)
+    assert mounting.count == 8
     radius = 0.5 * deep.insert.hole
     holes = [
         (layer.bottom, layer.top, tuple(np.round(hole.centre, 7)))

@@ -109,7 +109,7 @@ class AssemblyFacts:
         said += set_heights(self.machine)
         said.append(self._nut())
         said += [sealing(self.machine), centring(self.machine)]
-        said.append(self.driven())
+        said += [self.driven(), self.mounting()]
         said.append(
             f"Turned by hand, the output's face and seat run true to the housing within {_RUN_OUT} "
             "mm (ISO 2768-K); the parts' own run-outs stand on their sheets."
@@ -139,6 +139,19 @@ class AssemblyFacts:
         if not self.machine.layout.carrier.flange_dowels.count:
             return f"{by_spigot}."
         return f"{by_spigot}, or by the dowels of the output's face: the other needs play then."
+
+    def mounting(self) -> str:
+        """How the machine is fixed to another, and how long the screws may be."""
+        housing = self.machine.layout.housing
+        through = housing.cover_flange_top - housing.face
+        most = housing.cover_flange_top - housing.flange_bottom
+        screws = f"{housing.screw_count} screws M{1e3 * housing.mount_thread:g}"
+        return (
+            f"The actuator is fixed by {screws} from the output's side, through cover and clamp "
+            f"into the housing's flange: {1e3 * (through + housing.mount_thread):.3g} to "
+            f"{1e3 * most:.3g} mm longer than what they hold is thick. Longer ones come out behind "
+            "it, where the motor may be."
+        )
 
     def _grease(self) -> str:
         fill = grease_fill(self.machine)

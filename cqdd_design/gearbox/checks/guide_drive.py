@@ -74,7 +74,9 @@ ROWS = (
         "min",
         "least of driver, voltage and motor's peak torque at rest, after friction >= peak torque",
         "The motor has to reach the peak torque through the gearbox, about to turn against its "
-        f"friction. {_SCREENED}",
+        "friction: the share of the torque that it takes at the continuous torque. With films it "
+        "takes more of a larger torque, and up to a tenth less may be reached (see the actuator's "
+        f"model). {_SCREENED}",
         _EFFICIENCY,
         basis=_SCREEN,
     ),
@@ -97,8 +99,9 @@ ROWS = (
         "min",
         "fastest at which voltage, driver and motor give the continuous torque, winding hot >= "
         "input speed",
-        "What the winding's resistance takes of the voltage is no speed. The first screen takes "
-        "the speed without load, KV U.",
+        "What the winding's resistance takes of the voltage is no speed. Where continuous_speed "
+        "gives the continuous torque a speed of its own, that torque is judged there, and none is "
+        "asked at the input speed. The first screen takes the speed without load, KV U.",
         "motor catalogue",
         basis=_SCREEN,
     ),

@@ -49,12 +49,17 @@ def screw_circle(housing: HousingLayout) -> BoltCircle:
     return BoltCircle.even("cover screws", housing.screw_count, housing.bolt_circle_radius)
 
 
+def _mounting_circle(housing: HousingLayout) -> BoltCircle:
+    """Of the screws by which the actuator is fixed, between those of the cover."""
+    first = math.pi / housing.screw_count
+    return BoltCircle.even("mounting", housing.screw_count, housing.bolt_circle_radius, first)
+
+
 def _mounting(
     housing: HousingLayout, bottom: float, top: float, refers: str = "A"
 ) -> ClearanceHole:
-    """The holes by which the actuator is fixed, between the screws."""
-    first = math.pi / housing.screw_count
-    circle = BoltCircle.even("mounting", housing.screw_count, housing.bolt_circle_radius, first)
+    """The holes of these screws, which come from the output's side."""
+    circle = _mounting_circle(housing)
     return clearance("mounting holes", housing.mount_thread, bottom, top, circle, refers=refers)
 
 
@@ -73,6 +78,7 @@ def housing_features(layout: Layout) -> tuple[Feature, ...]:
     )  # fmt: skip
     thread = coarse_thread(housing.screw.thread)
     deep = pack.top - housing.flange_bottom
+    mount, held = coarse_thread(housing.mount_thread), housing.face - housing.flange_bottom
     found: list[Feature] = [
         ring,
         shoulder("ledge of the ring", 0.0, pack.ledge_radius, pack.ring_radius, "up", ring,
@@ -86,7 +92,8 @@ def housing_features(layout: Layout) -> tuple[Feature, ...]:
                mouth=pack.top, facing="up", depth=deep, room=deep),
         Counterbore("counterbores over these threads", thread_size_of(thread.diameter).medium,
                     housing.face, "up", housing.face - pack.top, screw_circle(housing)),
-        _mounting(housing, housing.flange_bottom, housing.face),
+        tapped("threads of the mounting", mount, metric(mount), _mounting_circle(housing),
+               mouth=housing.face, facing="up", depth=held, room=held, countersunk=False),
         *_ring_pin_seats(pack, -pack.relief, downward=True),
         *ring_dowel_holes(pack, layout.dowels, layout.dowels.bottom, housing.face),
         _seal_bore(housing.shaft_seal, "bore about the shaft"),

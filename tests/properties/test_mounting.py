@@ -1,0 +1,113 @@
+"""How the actuator is fixed to another machine, and what gives way where its output is stopped."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from functools import lru_cache
+from pathlib import Path
+
+import manifold3d
+import pytest
+
+from cqdd_design.actuator.specimen import AS_DRAWN
+from cqdd_design.design import load_design
+from cqdd_design.exporting.sheets.assembly_facts import AssemblyFacts
+from cqdd_design.machine import Machine, resolve
+from cqdd_design.machine.carrying import carried_torque
+from cqdd_design.machine.screws import screw_joints
+from cqdd_design.solids.features.holes import ClearanceHole, TappedHole
+from cqdd_design.solids.interference import posed_manifold
+from cqdd_design.solids.mesh import FINE
+from cqdd_design.verdict.asked import asked_lines
+from cqdd_design.verdict.evidence import gather
+from cqdd_design.verdict.headline import headline
+from cqdd_design.verdict.lines import verdict_lines
+
+DESIGNS = Path(__file__).resolve().parents[2] / "designs"
+
+
+@lru_cache
+def drawn(name: str) -> Machine:
+    return resolve(load_design(DESIGNS / f"{name}.toml"))
+
+
+@pytest.mark.parametrize("name", ["cqdd-10", "reference-s", "printed-13"])
+def test_a_screw_goes_in_from_the_output_and_ends_in_the_flange(name: str) -> None:
+    """Of the longest that is told a cylinder meets nothing, its thread apart."""
+    machine = drawn(name)
+    housing, parts = machine.layout.housing, machine.parts
+    (body,) = (part for part in parts if part.name == "housing")
+    (thread,) = (f for f in body.features if f.name == "threads of the mounting")
+    assert isinstance(thread, TappedHole)
+    assert thread.through
+    for other in ("ring clamp", "output cover"):
+        (part,) = (one for one in parts if one.name == other)
+        (hole,) = (f for f in part.features if f.name == "mounting holes")
+        assert isinstance(hole, ClearanceHole)
+        assert hole.diameter > housing.mount_thread
+        assert hole.circle.angles == thread.circle.angles
+    # As thick as the part that it holds, its head is beyond all of the machine there.
+    top, radius = housing.cover_flange_top + 2.0 * housing.mount_thread, housing.bolt_circle_radius
+    angle, size = thread.circle.angles[0], housing.mount_thread
+    length = 1e3 * (top - housing.flange_bottom)
+    screw = manifold3d.Manifold.cylinder(length, 499.0 * size, circular_segments=48).translate(
+        [
+            1e3 * radius * math.cos(angle),
+            1e3 * radius * math.sin(angle),
+            1e3 * housing.flange_bottom,
+        ]
+    )
+    fixed = {"housing", "ring clamp", "output cover", "ring", "motor stator", "motor cover"}
+    for part in (one for one in parts if one.name in fixed):
+        for piece in part.instances:
+            common = posed_manifold(part, piece.placement, FINE) ^ screw
+            assert common.volume() < 1e-3, part.name
+    # A screw that is longer by its diameter would run into the motor, if there is one round it.
+    assert 1e3 * (housing.face - housing.flange_bottom) >= 1e3 * size
+
+
+def test_the_sheet_says_how_long_they_are() -> None:
+    machine = drawn("cqdd-10")
+    housing = machine.layout.housing
+    said = AssemblyFacts(machine).mounting()
+    most = 1e3 * (housing.cover_flange_top - housing.flange_bottom)
+    assert "8 screws M4 from the output's side" in said
+    assert f"to {most:.3g} mm longer" in said
+
+
+def test_a_joint_is_fixed_as_its_thread_bears_it() -> None:
+    """Into 1 mm of aluminium a screw is not drawn as firmly as it could be."""
+    machine = drawn("reference-s")
+    joints = {one.place: one for one in screw_joints(machine)}
+    fixed = joints["housing on its machine, by friction"]
+    assert fixed.clamping.engaged == pytest.approx(
+        machine.layout.housing.face - machine.layout.housing.flange_bottom
+    )
+    thin = replace(fixed, clamping=replace(fixed.clamping, engaged=1e-3))
+    assert thin.slip_safety < 0.5 * fixed.slip_safety
+
+
+def test_a_stop_is_judged_by_all_that_gives_way() -> None:
+    """Cover screws of M3 slip long before ring, pins and cam bearing are at their limits."""
+    machine = drawn("reference-s").changed({"requirements.shock_speed": "1 rad/s"})
+    evidence = gather(machine, AS_DRAWN, samples=0)
+    lines = verdict_lines(evidence)
+    (stop,) = (line for line in lines if line.id == "SHOCK-STOP")
+    carried = carried_torque(machine).limits[0].torque
+    assert stop.limit is not None
+    assert stop.limit <= carried
+    (alone,) = asked_lines(evidence)
+    assert alone.limit == carried
+    weak = machine.layout.housing.screw
+    small = replace(
+        machine.layout, housing=replace(machine.layout.housing, screw=replace(weak, thread=2e-3))
+    )
+    loose = replace(machine)
+    vars(loose).update(vars(machine), layout=small)
+    worse = replace(evidence, machine=loose)
+    (line,) = (one for one in verdict_lines(worse) if one.id == "SHOCK-STOP")
+    assert line.limit is not None
+    assert line.limit < 0.7 * carried
+    peak = headline(worse, verdict_lines(worse))[0]
+    assert peak.value is None or peak.value <= line.limit * 1.01
