@@ -46,16 +46,15 @@ _COMMON: dict[str, Any] = {
     "debug": Annotated[bool, typer.Option("--debug", help="Show the traceback of an error.")],
 }
 
+_LINES_WITHOUT_TERMINAL = 10
+"""Of progress in a log, where a bar cannot move."""
+
 
 class Tell(Protocol):
     """Tells which stage begins, and how many seconds are left where the caller knows."""
 
     def __call__(self, text: str, left: float | None = None) -> None:
         """Tell it."""
-
-
-_LINES_WITHOUT_TERMINAL = 10
-"""Of progress in a log, where a bar cannot move."""
 
 
 def command(function: Callable[..., int | None], name: str = "") -> Callable[..., int | None]:

@@ -35,24 +35,32 @@ def forces(asked: Requirements, count: int, radius: float) -> tuple[float, float
 def clamping(thread: float, grip: float, engaged: float, metal: Material) -> Clamping:
     """A mounting screw of a thread (m) from another machine's part into the housing's flange.
 
-    Proportions of the head are those of ISO 4762. Of the other part nothing is known: of the same
-    metal, one and a half diameters thick.
+    Of the other part nothing is known: of the same metal, one and a half diameters thick.
 
     Parameters
     ----------
     grip, engaged : float
         Thickness of cover and clamp, and length of the flange's thread, m.
     """
+    alone = _clamping(thread, grip + 1.5 * thread, metal)
+    return replace(alone, tapped=metal, engaged=engaged, faces=3)
+
+
+def _clamping(thread: float, grip: float, metal: Material) -> Clamping:
+    """A screw of a thread (m) over a grip (m), of whose thread nothing is known.
+
+    Proportions of the head are those of ISO 4762.
+    """
     return Clamping(
         thread=coarse_thread(thread),
         screw=find_material(SCREW_MATERIAL),
         clamped=metal,
-        tapped=metal,
+        tapped=None,
         bearing_outer=1.7 * thread,
         bearing_inner=1.1 * thread,
-        grip=grip + 1.5 * thread,
-        engaged=engaged,
-        faces=3,
+        grip=grip,
+        engaged=0.0,
+        faces=1,
     )
 
 
@@ -71,9 +79,8 @@ def cover_thread(design: Design, thread: float, count: int, grip: float) -> floa
     larger = [mm * 1e-3 for mm in _THREADS if mm * 1e-3 > thread + 1e-9]
 
     def holds(size: float) -> bool:
-        # Of the thread that it is in nothing is known before the flange is laid out.
-        alone = replace(clamping(size, grip - 1.5 * size, 0.0, metal), tapped=None, faces=1)
-        return (count * alone.least_preload - along) * GRIP_FRICTION >= _COVER_RESERVE * force
+        left = _clamping(size, grip, metal).least_preload
+        return (count * left - along) * GRIP_FRICTION >= _COVER_RESERVE * force
 
     return next((size for size in (thread, *larger[:_LARGER]) if holds(size)), thread)
 

@@ -308,19 +308,6 @@ def _housing(
         hub + 0.5 * head + 0.4 * unit,
         pack.ring_radius + 0.5 * thread + 1.0 * unit,
     )
-    mount = mounting_thread(
-        design.requirements,
-        count,
-        bolt_circle,
-        thread,
-        cover_flange_top - face,
-        face - max(flange_bottom, 0.0),
-        find_material(design.housing.material),
-    )
-    # Larger ones leave a wall and the ring's dowels room.
-    bolt_circle = max(bolt_circle, pack.ring_radius + 0.55 * mount + 1.85 * unit)
-    rim = max(0.5 * head, 0.55 * mount) + 1.0 * unit
-
     pin_heads = carrier.pin_circle_radius - 0.5 * max(
         carrier.pin.head_diameter, carrier.pin.nominal_diameter
     )
@@ -333,12 +320,25 @@ def _housing(
     bottom = min(clear - _FLOOR * unit, seat_bottom - _LEAST_FLOOR * unit)
     # Round the seat alone a floor has to be as thick as the bearing.
     floor_top = clear if nested else min(clear, bottom + _FLOOR * unit)
+    flange_bottom = max(flange_bottom, bottom)
+    mount = mounting_thread(
+        design.requirements,
+        count,
+        bolt_circle,
+        thread,
+        cover_flange_top - face,
+        face - flange_bottom,
+        find_material(design.housing.material),
+    )
+    # Larger ones leave a wall and the ring's dowels room.
+    bolt_circle = max(bolt_circle, pack.ring_radius + 0.55 * mount + 1.85 * unit)
+    rim = max(0.5 * head, 0.55 * mount) + 1.0 * unit
     cover_top = carrier.output_seat_top + lip
     layout = HousingLayout(
         register_radius=place.tube,
         seated_motor=place.outrunner is not None and not place.behind,
         flange_radius=bolt_circle + rim,
-        flange_bottom=max(flange_bottom, bottom),
+        flange_bottom=flange_bottom,
         bolt_circle_radius=bolt_circle,
         screw=screw,
         screw_count=count,
