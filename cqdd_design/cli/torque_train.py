@@ -184,7 +184,7 @@ def train(
             checkpoint=kept,
             resume=resume,
             command=shlex.join(["cqdd-design", *sys.argv[1:]]),
-            progress=lambda one: tell(one.line, one.seconds * (one.epochs - one.epoch)),
+            progress=lambda result: tell(result.line, result.left),
         )
     except KeyboardInterrupt:
         if kept.exists():

@@ -12,6 +12,7 @@ from test_cli_terminal import on_terminal
 from cqdd_design.cli.progress import Bar
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.stage_times import StageTimes
+from cqdd_design.torque.training.recipe import EpochResult
 
 
 @pytest.fixture(autouse=True)
@@ -89,6 +90,11 @@ def test_who_knows_what_is_left_is_believed(cache, monkeypatch):
     out.end_progress(done=True)
     assert "epoch 1 of 2 (about 7 s left)" in shown.frames()[0]
     assert not (cache / "stages").exists()
+
+
+@pytest.mark.parametrize(("epoch", "left"), [(1, 18.0), (3, 14.0), (10, 0.0)])
+def test_epochs_take_as_long_as_the_last(epoch, left):
+    assert EpochResult(epoch, 10, 1.0, 1.0, 1.0, seconds=2.0).left == left
 
 
 @pytest.mark.deep

@@ -143,5 +143,10 @@ class EpochResult:
             f"{self.seconds:.1f} s"
         )
 
+    @property
+    def left(self) -> float:
+        """Seconds that the epochs after it take at most, as long as it each."""
+        return self.seconds * (self.epochs - self.epoch)
+
 
 Progress = Callable[[EpochResult], None]
