@@ -94,6 +94,7 @@ def actuator_parameters(
         machine.losses,
         torque,
         design.requirements.input_speed,
+        peak=design.requirements.peak_torque,
         drag=motor.dry_drag,
         cogging=motor.cogging_amplitude,
     )
@@ -101,6 +102,12 @@ def actuator_parameters(
         origins[f"friction.{name}"] = (
             f"computed: losses of the gearbox at {torque:g} N*m, and its backdrive torque"
         )
+    origins["friction.load_knee"] = (
+        "assumed: above the continuous torque by half, or by a third of the way to the peak"
+    )
+    origins["friction.load_growth"] = (
+        f"computed: losses of the gearbox at {design.requirements.peak_torque:g} N*m"
+    )
     speed = design.requirements.input_speed
     for name in ("motor_viscous", "output_viscous"):
         origins[f"friction.{name}"] = (

@@ -47,6 +47,8 @@ class Constants(NamedTuple):
     stribeck_speed: float
     load_forward: float
     load_backward: float
+    load_knee: float
+    load_growth: float
     motor_bristle: float
     motor_bristle_damping: float
     output_bristle: float

@@ -12,6 +12,8 @@ from cqdd_design.gearbox.losses.model import SENSES
 
 STRIBECK_SPEED = 2.0
 """Motor speed by which breakaway has fallen off where friction is stated as coefficients, rad/s."""
+_KNEE = 1.5
+"""Over the continuous torque."""
 _SPEEDS = 64
 """Between rest and the input speed, over which a Stribeck curve follows that of the films."""
 
@@ -21,6 +23,7 @@ def friction_parameters(
     torque: float,
     input_speed: float,
     *,
+    peak: float = 0.0,
     drag: float = 0.0,
     cogging: float = 0.0,
 ) -> FrictionParameters:
@@ -32,6 +35,9 @@ def friction_parameters(
         At which efficiency is kept in both directions, N m.
     input_speed : float
         Up to which the viscous part stands for the drag, rad/s.
+    peak : float
+        Torque, N m, at which losses in motion are kept too, the motor driving; none that is not
+        above the first.
     drag, cogging : float
         Of the motor that the output turns with the gearbox, N m at its shaft; no part of what is
         returned.
@@ -39,18 +45,23 @@ def friction_parameters(
     Notes
     -----
     The loss torque at the output is ``c + mu T``: mu from the Coulomb work at the torque, of its
-    own while the motor drives and while the output does. Of c the part o at the output is its
-    drag, the rest m and the motor's drag D are behind the friction under load, so that the slow
-    dynamic backdrive torque is ``o + (m + D)/(1 - mu)``; m is such that it is that of the loss
-    model, which knows that the first loads are carried by fewer teeth, and not below zero, where
-    mu alone says too much. The static one has all friction times r, 1 and Stribeck's share, and
-    the cogging C beside D, which gives r. Where friction holds any torque, m is the drag itself.
+    own while the motor drives and while the output does. Beyond a knee above that torque it grows
+    by mu (1 + chi) for each N m, so that it is that of the loss model at the peak torque too, and
+    never slower than up to there.
+
+    Of c the part o at the output is its drag, the rest m and the motor's drag D are behind the
+    friction under load, so that the slow dynamic backdrive torque is ``o + (m + D)/(1 - mu)``; m is
+    such that it is that of the loss model, which knows that the first loads are carried by fewer
+    teeth, and not below zero, where mu alone says too much. The static one has all friction times
+    r, 1 and Stribeck's share, and the cogging C beside D, which gives r. Where friction holds any
+    torque, m is the drag itself.
 
     Where friction follows from films, mu and the dynamic torque are those of the films at the input
     speed, the static one is that of none, and the Stribeck speed is fitted to what lies between.
     """
     machine, n = losses.machine, losses.machine.lobe_count
     forward, load, preload = load_shares(losses, torque, input_speed)
+    knee, growth = _knee(losses, torque, peak, input_speed, forward)
     slow, fast = machine.drag(0.0), machine.drag(input_speed)
     output = float(slow["output_bearing"]) * n
     motor = sum(float(v) for k, v in slow.items() if k != "output_bearing") + preload
@@ -77,6 +88,8 @@ def friction_parameters(
         stribeck_speed=_stribeck_speed(losses, torque, input_speed),
         load_forward=forward,
         load_backward=load,
+        load_knee=knee,
+        load_growth=growth,
     )
 
 
@@ -91,6 +104,22 @@ def load_shares(losses: LossModel, torque: float, input_speed: float) -> tuple[f
         losses.machine.lobe_count * float(loaded - none) / torque for loaded, none in found
     )
     return forward, backward, float(found[-1][1])
+
+
+def _knee(
+    losses: LossModel, torque: float, peak: float, input_speed: float, share: float
+) -> tuple[float, float]:
+    """Torque up to which a share of it rubs, N m, and by how much more what is above it does.
+
+    Half above the torque of the share, or a third of the way to the peak by ratio where that is
+    nearer: up to there friction is at most a twentieth above it.
+    """
+    knee = torque * min(_KNEE, math.cbrt(max(peak / torque, 1.0)))
+    if peak <= knee or share <= 0.0:
+        return knee, 0.0
+    none, most = losses.coulomb_work([0.0, peak], "drive", input_speed).sum(-1)
+    slope = (losses.machine.lobe_count * float(most - none) - share * knee) / (peak - knee)
+    return knee, max(slope / share - 1.0, 0.0)
 
 
 def _stribeck_speed(losses: LossModel, torque: float, input_speed: float) -> float:

@@ -18,8 +18,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cqdd_design.actuator.load_friction import carried_torque
 from cqdd_design.actuator.motor import no_load_speed, torque_constant_at
-from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray
+from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray, FrictionParameters
 from cqdd_design.actuator.thermal import continuous_current
 from cqdd_design.errors import DesignError
 
@@ -155,10 +156,7 @@ def backdrive_static(parameters: ActuatorParameters) -> float:
     friction, n = parameters.friction, abs(parameters.gear.ratio)
     rise = 1.0 + friction.stribeck_extra
     at_motor = motor_breakaway(parameters) + parameters.motor.cogging_amplitude
-    passed = 1.0 - friction.load_backward * rise
-    if passed <= 0.0:
-        return math.inf
-    return n * at_motor / passed + friction.output_coulomb * rise
+    return _driven_back(friction, n * at_motor, rise) + friction.output_coulomb * rise
 
 
 def backdrive_dynamic(parameters: ActuatorParameters, speed: float = 0.0) -> float:
@@ -168,34 +166,42 @@ def backdrive_dynamic(parameters: ActuatorParameters, speed: float = 0.0) -> flo
     """
     friction, n = parameters.friction, abs(parameters.gear.ratio)
     at_motor = motor_coulomb(parameters) + motor_viscous(parameters) * n * abs(speed)
-    passed = 1.0 - friction.load_backward
-    if passed <= 0.0:
+    carried = _driven_back(friction, n * at_motor, 1.0)
+    return carried + friction.output_coulomb + friction.output_viscous * abs(speed)
+
+
+def _driven_back(friction: FrictionParameters, left: float, rise: float) -> float:
+    """Torque that the output carries while what is left of it turns the motor, N m.
+
+    inf where friction holds any torque, or all above the knee.
+    """
+    below = 1.0 - friction.load_backward * rise
+    beyond = 1.0 - friction.load_backward * rise * (1.0 + friction.load_growth)
+    if below <= 0.0 or (beyond <= 0.0 and left > below * friction.load_knee):
         return math.inf
-    return n * at_motor / passed + friction.output_coulomb + friction.output_viscous * abs(speed)
+    return float(carried_torque(friction, left, rise, -1.0, least=0.0))
 
 
 def delivered_peak_torque(parameters: ActuatorParameters, side: JointSide) -> float:
     """Peak torque at the joint in slow motion, N m; 0 where friction holds the motor.
 
-    Of the motor's peak torque its Coulomb friction is taken off; of the rest the
-    gear passes on T where T (1 + f) comes in, and the output side's Coulomb friction takes the
-    last part.
+    Of the motor's peak torque its Coulomb friction is taken off; of the rest the gear passes on
+    what friction under load leaves, and the output side's Coulomb friction takes the last part.
     """
     friction = parameters.friction
-    carried = side.peak_torque - side.reduction * motor_coulomb(parameters)
-    carried /= 1.0 + friction.load_forward
+    given = max(side.peak_torque - side.reduction * motor_coulomb(parameters), 0.0)
+    carried = float(carried_torque(friction, given, 1.0, 1.0))
     return max(carried - friction.output_coulomb, 0.0)
 
 
 def held_back_torque(parameters: ActuatorParameters, side: JointSide) -> float:
     """Friction under load on a locked output at the peak torque, N m at the joint.
 
-    With the coefficient F at rest, which exceeds that in motion by the Stribeck share, T (1 + F)
-    of the motor holds T at the output: F/(1 + F) of the peak torque is lost.
+    That at rest exceeds that in motion by the Stribeck share.
     """
-    friction = parameters.friction
-    load = friction.load_forward * (1.0 + friction.stribeck_extra)
-    return side.peak_torque * load / (1.0 + load)
+    rise = 1.0 + parameters.friction.stribeck_extra
+    carried = carried_torque(parameters.friction, side.peak_torque, rise, 1.0)
+    return side.peak_torque - float(carried)
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from cqdd_design.actuator.load_friction import carried_torque, load_friction
 from cqdd_design.actuator.motor import greatest_torque, iron_drag, resistance_at, torque_constant_at
 from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray
 from cqdd_design.actuator.thermal import response
@@ -105,8 +106,7 @@ def motor_torque(parameters: ActuatorParameters, torque: ArrayLike, speed: Array
         + friction.output_coulomb * rise
         + friction.output_viscous * turning
     )
-    forward, backward = 1.0 + friction.load_forward * rise, 1.0 - friction.load_backward * rise
-    carried = carried * np.where(carried >= 0.0, forward, backward) / n
+    carried = (carried + rise * load_friction(friction, carried)) / n
     return np.asarray(
         carried + friction.motor_coulomb * rise + friction.motor_viscous * n * turning
     )
@@ -119,18 +119,15 @@ def output_torque(
     friction, n = parameters.friction, abs(parameters.gear.ratio)
     turning = np.asarray(speed, dtype=float)
     rise = _rise(parameters, n * turning)
-    carried = (
+    given = n * (
         np.asarray(torque, dtype=float)
         - friction.motor_coulomb * rise
         - friction.motor_viscous * n * turning
     )
-    share = np.where(
-        carried >= 0.0,
-        1.0 / (1.0 + friction.load_forward * rise),
-        1.0 / np.maximum(1.0 - friction.load_backward * rise, 1e-3),
-    )
+    way = np.where(given >= 0.0, 1.0, -1.0)
+    carried = way * carried_torque(friction, np.abs(given), rise, way)
     rubbed = friction.output_coulomb * rise + friction.output_viscous * turning
-    return np.asarray(n * carried * share - rubbed)
+    return np.asarray(carried - rubbed)
 
 
 class Needs(NamedTuple):

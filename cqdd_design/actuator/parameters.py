@@ -227,6 +227,9 @@ class FrictionParameters:
     load_forward, load_backward : float
         Friction over transmitted torque when the motor drives and when the output drives; it acts
         on the motor side: efficiencies 1/(1 + forward) and 1 - backward.
+    load_knee, load_growth : float
+        Torque carried up to which these shares hold, N m at the output, and the share by which
+        friction of what is carried above it is more.
     bristle_deflection, bristle_damping : float
         Of LuGre friction: motor angle at which breakaway is reached, rad, and the bristles'
         damping, N m s/rad at the motor. Coulomb friction by the stopping torque needs neither.
@@ -242,12 +245,14 @@ class FrictionParameters:
     load_backward: float
     bristle_deflection: float = 1e-3
     bristle_damping: float = 0.0
+    load_knee: float = 0.0
+    load_growth: float = 0.0
 
     def __post_init__(self) -> None:
         """Refuse friction that cannot exist."""
         names = ("motor_coulomb", "output_coulomb", "motor_viscous", "output_viscous")
         more = ("stribeck_extra", "load_forward", "load_backward", "bristle_damping")
-        _not_negative(self, "friction", *names, *more)
+        _not_negative(self, "friction", *names, *more, "load_knee", "load_growth")
         _positive(
             self,
             "friction",

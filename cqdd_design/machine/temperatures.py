@@ -223,6 +223,17 @@ class MachineTemperatures:
         """
         return max(one.overlap for one in _added_overlaps(self.undisturbed))
 
+    @cached_property
+    def heat_share(self) -> float:
+        """Greatest rise above the air of a part, over the most that it bears."""
+        air = self.network.ambient
+        return max((one.temperature - air) / max(one.most - air, 1e-9) for one in _parts(self))
+
+    @cached_property
+    def tightest(self) -> Tightness:
+        """The greatest overlap that warmth adds, and where."""
+        return max(_added_overlaps(self), key=lambda one: one.overlap)
+
     @property
     def settling_time(self) -> float:
         """After which the slowest part has done 63 % of its way, s."""

@@ -7,13 +7,16 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 
 from cqdd_design.actuator.build import actuator_parameters
+from cqdd_design.actuator.demands import demands
+from cqdd_design.actuator.operating import held_torque
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.specimen import Specimen
-from cqdd_design.errors import ContactError, CqddError, UsageError
+from cqdd_design.errors import ContactError, CqddError, DesignError, GeometryError, UsageError
 from cqdd_design.gearbox.bodies.strength import BodyStrength
 from cqdd_design.gearbox.checks.heat import cooling_remedy
 from cqdd_design.machine import Machine
 from cqdd_design.machine.body_analysis import judged_or_told
+from cqdd_design.machine.lasting import lasting_torque
 from cqdd_design.machine.temperatures import (
     MachineTemperatures,
     enough_cooling,
@@ -21,6 +24,7 @@ from cqdd_design.machine.temperatures import (
 )
 from cqdd_design.results import Check
 from cqdd_design.verdict.drawn import Drawn, drawn_gearboxes
+from cqdd_design.verdict.motor import lasting_speed_of
 
 Progress = Callable[[str], None]
 
@@ -44,6 +48,9 @@ class Evidence:
         As it is simulated, of perfect parts.
     drawn : Drawn or None
         Toleranced gearboxes at the continuous and at the peak torque.
+    lasting_torque : float or None
+        The greatest that all parts stand for ever at the speed it is told at, N m, as far as
+        winding and drive hold it; None where that is not known.
     stress_missing, heat_missing, actuator_missing, drawn_missing : str
         Why there are none.
     """
@@ -59,6 +66,7 @@ class Evidence:
     actuator_missing: str
     drawn: Drawn | None
     drawn_missing: str
+    lasting_torque: float | None = None
 
 
 def gather(
@@ -95,17 +103,19 @@ def gather(
         strained = beside.submit(judged_or_told, machine)
         heat = beside.submit(_heat, machine)
         motor = beside.submit(_actuator, machine, specimen)
+        held = beside.submit(lambda: _lasting(machine, heat.result()[1], motor.result()[0]))
         progress("drawing toleranced gearboxes, and judging heat and motor")
         try:
             drawn, undrawn = _drawn(machine, samples, sensitivity)
         except BaseException:
             # Ctrl-C: what has not begun is not waited for.
-            for one in (heat, motor):
+            for one in (heat, motor, held):
                 one.cancel()
             raise
         stress, stress_checks, unstressed = strained.result()
         warm, heat_checks, cold = heat.result()
         actuator, no_actuator = motor.result()
+        lasting = held.result()
     return Evidence(
         machine=machine,
         stress=stress,
@@ -118,6 +128,7 @@ def gather(
         actuator_missing=no_actuator,
         drawn=drawn,
         drawn_missing=undrawn,
+        lasting_torque=lasting,
     )
 
 
@@ -138,6 +149,28 @@ def _heat(
     duty = bool(machine.design.requirements.load_cases)
     remedy = cooling_remedy(enough_cooling(warm), duty=duty)
     return warm, (replace(checks[0], remedy=remedy), *checks[1:]), told
+
+
+def _lasting(
+    machine: Machine, heat_checks: tuple[Check, ...], actuator: ActuatorParameters | None
+) -> float | None:
+    """The torque that all parts stand for ever, N m, as far as winding and drive hold it."""
+    if machine.stiff or actuator is None or not heat_checks:
+        return None
+    asked = machine.design.requirements
+    if asked.load_cases:
+        speed, holds = lasting_speed_of(asked), 0.0
+        most = float(held_torque(actuator, speed / asked.ratio)[0])
+    else:
+        speed, most = asked.held_speed, demands(actuator, asked)[1].found.most
+        cool = all(line.known and line.status == "pass" for line in heat_checks)
+        holds = asked.continuous_torque if cool else 0.0
+    if most <= holds or most <= 0.0:
+        return most
+    try:
+        return lasting_torque(machine, most, speed, holds)
+    except (ContactError, DesignError, GeometryError):
+        return None
 
 
 def _drawn(machine: Machine, samples: int, sensitivity: bool) -> tuple[Drawn | None, str]:

@@ -16,6 +16,7 @@ from cqdd_design.results import Check, Status
 from cqdd_design.terms import life_text
 from cqdd_design.verdict.evidence import Evidence
 from cqdd_design.verdict.motor import MODEL as OPERATING
+from cqdd_design.verdict.motor import lasting_speed_of
 from cqdd_design.verdict.reached import PEAK_LINES, standing_torque
 
 _RPM = 30.0 / math.pi
@@ -104,23 +105,23 @@ def _temperature(line: Check) -> Figure:
 def _continuous(evidence: Evidence, by_id: dict[str, Check]) -> Figure:
     """What is held for ever.
 
-    Under a duty nothing is asked of it, and the duty's heat decides: the figure names the speed
-    that it is held at, the duty's mean unless one is stated.
+    Under a duty nothing is asked of it, and the duty's heat decides.
     """
-    name, title, line = "continuous_torque", "continuous torque", by_id.get("MOTOR-CONTINUOUS")
+    asked = evidence.machine.design.requirements
+    speed = lasting_speed_of(asked)
+    name, title = "continuous_torque", f"continuous torque at {speed * _RPM:.0f} rpm"
+    line = by_id.get("MOTOR-CONTINUOUS")
     if line is not None:
         return _of_line(name, title, line)
-    heat, actuator = by_id["THERMAL-RISE"], evidence.actuator
-    asked = evidence.machine.design.requirements
-    speed, whose = asked.held_speed, "this speed of the motor"
+    heat, whose = by_id["THERMAL-RISE"], "this speed of the motor"
     if asked.continuous_speed is None:
-        speed = asked.ratio * sum(one.share * abs(one.speed) for one in asked.load_cases)
         whose = "the duty's mean speed of the motor"
-    value, alone = None, ""
-    if actuator is not None:
-        value = float(held_torque(actuator, speed / asked.ratio)[0])
+    value, alone, lasting = None, "", evidence.lasting_torque
+    if evidence.actuator is not None:
+        value = float(held_torque(evidence.actuator, speed / asked.ratio)[0])
         alone = "" if value > 0.0 else ": friction alone heats the winding too much there"
-    title += f" at {speed * _RPM:.0f} rpm"
+        if lasting is not None and lasting < value:
+            value, alone = lasting, ", as far as all parts stand it"
     basis = (
         f"{OPERATING}, for ever at {whose}{alone}; not asked for, the duty's heat decides, see the "
         "temperature"

@@ -64,6 +64,7 @@ def verdict_lines(evidence: Evidence) -> tuple[Check, ...]:
         evidence.actuator,
         evidence.actuator_missing,
         uncooled="" if machine.design.drive.thermal_resistance else evidence.heat_missing,
+        lasting=evidence.lasting_torque,
     )
     drawn = yield_line(machine, evidence.drawn, evidence.drawn_missing, lines)
     return (*lines, drawn, *asked_lines(evidence, lines))

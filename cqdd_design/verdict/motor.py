@@ -29,6 +29,7 @@ from cqdd_design.gearbox.checks.remedies import PEAK_KEY, lower_peak
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.geometry.limits import rounded_down, rounded_up
 from cqdd_design.machine import Machine
+from cqdd_design.machine.lasting import lasting_speed
 from cqdd_design.results import Check
 from cqdd_design.solids.motor_rules import undrawn_sizes
 
@@ -67,7 +68,12 @@ def missing_figures(motor: Motor) -> tuple[str, ...]:
 
 
 def motor_lines(
-    machine: Machine, actuator: ActuatorParameters | None, why: str, *, uncooled: str = ""
+    machine: Machine,
+    actuator: ActuatorParameters | None,
+    why: str,
+    *,
+    uncooled: str = "",
+    lasting: float | None = None,
 ) -> tuple[Check, ...]:
     """All lines of this chapter.
 
@@ -79,6 +85,8 @@ def motor_lines(
         Why not.
     uncooled : str
         Why the way of the heat is not known, where it is neither drawn nor stated.
+    lasting : float, optional
+        Torque that all parts stand for ever at that speed, N m; default not looked for.
     """
     asked, motor = machine.design.requirements, machine.motor
     lines = list(_data(motor))
@@ -88,7 +96,7 @@ def motor_lines(
     lines += [
         _peak(peak, actuator, motor, asked),
         # Under a duty its own heat decides, see THERMAL-RISE.
-        *(() if duty else (_continuous(steady, actuator, asked, uncooled),)),
+        *(() if duty else (_continuous(steady, actuator, machine, uncooled, lasting),)),
         _speed(actuator, asked),
         *_bore(machine),
     ]
@@ -140,26 +148,45 @@ def _peak(demand: Demand, actuator: ActuatorParameters, motor: Motor, asked: Req
 
 
 def _continuous(
-    demand: Demand, actuator: ActuatorParameters, asked: Requirements, uncooled: str
+    demand: Demand,
+    actuator: ActuatorParameters,
+    machine: Machine,
+    uncooled: str,
+    lasting: float | None,
 ) -> Check:
+    asked = machine.design.requirements
     if uncooled:
         cure = "state what cooling reaches as drive.thermal_resistance"
         limit = asked.continuous_torque
         return build_check("MOTOR-CONTINUOUS", None, limit, uncooled, cure, model=MODEL)
-    most, still = demand.found.most, float(held_torque(actuator, 0.0)[0])
-    slower = _slower(actuator, asked) if most < asked.continuous_torque else ""
-    # What friction alone overheats holds nothing while it turns. Friction is put in two numbers at
-    # the torque that is asked for: at a lower one a little more may be held.
+    alone, still = demand.found.most, float(held_torque(actuator, 0.0)[0])
+    most = alone if lasting is None else min(alone, lasting)
+    slower = ""
+    if most < asked.continuous_torque:
+        slower = _slower(actuator, machine, parts=lasting is not None)
+    winding = f", {alone:.4g} N*m by winding and drive alone" if most < alone else ""
+    # What friction alone overheats holds nothing while it turns. Friction is put in numbers at the
+    # torque that is asked for: at a lower one a little more may be held.
     lower = f"{_LOWER_CONTINUOUS} {rounded_down(most):g} N*m, " if most > 0.0 else ""
     return build_check(
         "MOTOR-CONTINUOUS",
         most,
         asked.continuous_torque,
-        f"{most:.4g} N*m at {asked.held_speed * _RPM:.0f} rpm of the motor; {still:.4g} N*m "
-        "standing still",
+        f"{most:.4g} N*m at {asked.held_speed * _RPM:.0f} rpm of the motor{winding}; {still:.4g} "
+        "N*m standing still",
         f"{lower}{slower}lower friction, or cool it (drive.thermal_resistance states how well)",
         model=MODEL,
     )
+
+
+def lasting_speed_of(asked: Requirements) -> float:
+    """Speed of the motor that a torque held for ever is told at, rad/s.
+
+    Under a duty its mean, unless a continuous speed is stated.
+    """
+    if asked.continuous_speed is None and asked.load_cases:
+        return asked.ratio * sum(one.share * abs(one.speed) for one in asked.load_cases)
+    return asked.held_speed
 
 
 def held_up_to(actuator: ActuatorParameters, asked: Requirements) -> float:
@@ -183,9 +210,16 @@ def held_up_to(actuator: ActuatorParameters, asked: Requirements) -> float:
     return told
 
 
-def _slower(actuator: ActuatorParameters, asked: Requirements) -> str:
-    """The speed up to which a continuous torque is held, in words; nothing where there is none."""
+def _slower(actuator: ActuatorParameters, machine: Machine, *, parts: bool) -> str:
+    """The speed up to which a continuous torque is held, in words; nothing where there is none.
+
+    By the winding, or by all parts.
+    """
+    asked = machine.design.requirements
     told = held_up_to(actuator, asked)
+    if told and parts:
+        with suppress(DesignError):
+            told = rounded_down(lasting_speed(machine, told / _RPM) * _RPM)
     if not told:
         return ""
     if asked.continuous_speed is None:

@@ -147,6 +147,8 @@ def random_actuators(draw: st.DrawFn) -> ActuatorParameters:
             stribeck_speed=draw(_between(0.5, 10.0)),
             load_forward=draw(zero_or(0.01, 0.3)),
             load_backward=draw(zero_or(0.01, 0.3)),
+            load_knee=draw(zero_or(0.1, 20.0)),
+            load_growth=draw(zero_or(0.05, 1.0)),
         ),
         gear=dataclasses.replace(
             base.gear,

@@ -12,7 +12,7 @@ from cqdd_design.actuator.bench import steady
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.joint_side import ripple_harmonics
 from cqdd_design.actuator.motor import torque_constant_at
-from cqdd_design.actuator.parameters import ActuatorParameters
+from cqdd_design.actuator.parameters import ActuatorParameters, FrictionParameters
 from cqdd_design.actuator.scenario import Command, Constant, Load, Scenario, Start
 from cqdd_design.actuator.simulate import simulate
 from cqdd_design.actuator.thermal import continuous_current
@@ -74,7 +74,7 @@ def by_hand(p: ActuatorParameters) -> dict[str, tuple[float | None, float | None
     idle = (constant * volts / ohms - coulomb - outer) / (constant**2 / ohms + drag + outer_drag)
     error = math.sqrt(0.5 * float(np.sum(gear.error_cosine**2 + gear.error_sine**2)))
     ripple = math.sqrt(0.5 * sum(one.amplitude**2 for one in ripple_harmonics(p)))
-    delivered = (n * (constant * amps - coulomb)) / (1.0 + friction.load_forward)
+    delivered = _through(friction, n * (constant * amps - coulomb))
     return {
         "reduction": (None, n),
         "torque_constant": torque(constant),
@@ -114,6 +114,8 @@ def by_hand(p: ActuatorParameters) -> dict[str, tuple[float | None, float | None
         "viscous": square(drag + outer_drag),
         "load_forward": (None, friction.load_forward),
         "load_backward": (None, friction.load_backward),
+        "load_knee": (None, friction.load_knee),
+        "load_growth": (None, friction.load_growth),
         "backlash": speed(gear.backlash * n),
         "stiffness": square(gear.stiffness / n**2),
         "stiffening": (None, gear.stiffening),
@@ -136,6 +138,17 @@ def by_hand(p: ActuatorParameters) -> dict[str, tuple[float | None, float | None
         "derating_begins": (thermal.derating_begins, None),
         "most": (thermal.most, None),
     }
+
+
+def _through(friction: FrictionParameters, given: float) -> float:
+    """What is carried of a torque that the motor gives, by halving."""
+    low, high = 0.0, given
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        above = max(middle - friction.load_knee, 0.0)
+        taken = middle + friction.load_forward * (middle + friction.load_growth * above)
+        low, high = (middle, high) if taken <= given else (low, middle)
+    return low
 
 
 def test_every_row_of_a_design(built: ActuatorParameters) -> None:
@@ -166,7 +179,8 @@ def test_delivered_torque_is_that_of_the_simulation(built: ActuatorParameters) -
     torque = float(run.output_torque[0][run.time > 0.5].mean())
     n = abs(built.gear.ratio)
     dragged = n**2 * (friction.motor_viscous + built.motor.drag_slope) * speed
-    dragged = dragged / (1.0 + friction.load_forward) + friction.output_viscous * speed
+    dragged /= 1.0 + friction.load_forward * (1.0 + friction.load_growth)
+    dragged += friction.output_viscous * speed
     rows = {row.key: row for row in actuator_card(built, "designed").rows}
     delivered = rows["delivered_peak_torque"].joint
     assert delivered is not None

@@ -214,8 +214,9 @@ def test_under_a_duty_its_heat_decides_and_not_the_continuous_torque(machine: Ma
     actuator = judged.evidence.actuator
     assert actuator is not None
     held = float(held_torque(actuator, mean / machine.design.reducer.ratio)[0])
-    assert figure.value == pytest.approx(held)
-    assert held > 1.0
+    # Warm parts press before the winding is at its limit.
+    assert 1.0 < (figure.value or 0.0) < held
+    assert "as far as all parts stand it" in figure.basis
     assert judged.headline[5].title == "temperature"
     assert "for ever at the duty's mean speed of the motor; not asked for" in figure.basis
     # At a speed that is stated this friction alone is too much: 0 N m says so.

@@ -30,8 +30,9 @@ def levels(p: Any, toward: float, transmitted: float, guess: float, out_guess: f
     n = abs(p.ratio)
     forward = toward * transmitted * p.ratio > 0.0
     load_share = p.load_forward if forward else p.load_backward
+    load = abs(transmitted) + p.load_growth * max(abs(transmitted) - p.load_knee, 0.0)
     rise = stribeck_rise(p.stribeck_extra, guess / p.stribeck_speed)
-    level = (p.motor_coulomb + load_share * abs(transmitted) / n) * rise
+    level = (p.motor_coulomb + load_share * load / n) * rise
     level += p.hysteresis + p.motor_dry
     rise = stribeck_rise(p.stribeck_extra, out_guess * n / p.stribeck_speed)
     return level, p.output_coulomb * rise

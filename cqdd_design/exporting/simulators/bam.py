@@ -121,6 +121,7 @@ def bam_document(
             "computes torque from current with the limits above, as its Erob does.",
             "armature is the whole reflected inertia, that of the output side included.",
             "Not in this file, because BAM has no place for it: backlash, stiffness, ripple, "
-            "cogging, inductance, heat.",
+            "cogging, inductance, heat; friction under load that grows faster above "
+            f"{friction.load_knee:g} N m, by {friction.load_growth:.3g} of itself.",
         ],
     }

@@ -328,8 +328,9 @@ def remarks(model: MjcfActuator, *, alone: bool) -> list[str]:
         "",
         "Not in this file, because MuJoCo has no place for it:",
         f"- friction that grows with load ({number(friction.load_forward)} of the torque when the "
-        f"motor drives, {number(friction.load_backward)} when the output drives), so neither "
-        "efficiency; a step callback that writes dof_frictionloss can add it;",
+        f"motor drives, {number(friction.load_backward)} when the output drives, "
+        f"{number(friction.load_growth)} of itself more above {number(friction.load_knee)} N m), "
+        "so neither efficiency; a step callback that writes dof_frictionloss can add it;",
         "- the kinematic error in the joint's position: only its torque is here;",
         f"- variation of stiffness over angle beyond its torque, and its exponent "
         f"{number(gear.stiffening)}; without backlash the joint is rigid;",

@@ -134,7 +134,8 @@ def _remarks(
         "dynamics: Coulomb and viscous friction of both sides at the joint. Not here, because URDF "
         f"has no place for it: breakaway of {number(side.breakaway)} N m, friction that grows with "
         f"load ({number(friction.load_forward)} of the torque when the motor drives, "
-        f"{number(friction.load_backward)} when the output drives), backlash of "
+        f"{number(friction.load_backward)} when the output drives, {number(friction.load_growth)} "
+        f"of itself more above {number(friction.load_knee)} N m), backlash of "
         f"{number(parameters.gear.backlash)} rad, stiffness, ripple, heat.",
         "",
         "Inertia: the output link has that of the output side, "

@@ -74,20 +74,21 @@ ROWS = (
         "min",
         "least of driver, voltage and motor's peak torque at rest, after friction >= peak torque",
         "The motor has to reach the peak torque through the gearbox, about to turn against its "
-        "friction: the share of the torque that it takes at the continuous torque. With films it "
-        "takes more of a larger torque, and up to a tenth less may be reached (see the actuator's "
-        f"model). {_SCREENED}",
+        f"friction, which is kept at the continuous and at the peak torque. {_SCREENED}",
         _EFFICIENCY,
         basis=_SCREEN,
     ),
     CheckGuide(
         "MOTOR-CONTINUOUS",
-        "Torque held for ever at the input speed",
+        "Torque held for ever at its speed",
         "N*m",
         "min",
-        "torque whose heat the winding stands for ever at the input speed >= continuous torque",
+        "torque whose heat winding and parts stand for ever at the continuous speed >= continuous "
+        "torque",
         "Copper, iron, drag and the gearbox's friction warm the winding to what the air carries "
-        "off; driver and voltage count too. Under a duty its own heat decides instead. "
+        "off; driver and voltage count too, and what THERMAL-RISE and THERMAL-CLEARANCE ask of all "
+        "parts, to a per cent, from below. The speed is the input speed, unless continuous_speed "
+        "gives it one of its own. Under a duty its own heat decides instead. "
         f"{_SCREENED}",
         _EFFICIENCY,
         basis=_SCREEN,

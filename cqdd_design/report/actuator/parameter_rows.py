@@ -69,6 +69,8 @@ _SCALARS: dict[str, tuple[tuple[str, str, str, float], ...]] = {
         ("friction.output_viscous", "gearbox: viscous friction, output side", "mN·m·s/rad", 1e3),
         ("friction.load_forward", "friction over torque, motor driving", "%", 1e2),
         ("friction.load_backward", "friction over torque, output driving", "%", 1e2),
+        ("friction.load_knee", "these hold up to a torque at the output of", "N·m", 1.0),
+        ("friction.load_growth", "friction of what is carried above it is more by", "%", 1e2),
         ("friction.stribeck_extra", "breakaway above Coulomb friction", "%", 1e2),
         ("friction.stribeck_speed", "Stribeck speed of the motor", "rad/s", 1.0),
         ("friction.bristle_deflection", "LuGre: breakaway at a motor angle of", "mrad", 1e3),

@@ -5,12 +5,12 @@ switch in it, with the sign of friction and the gearbox's ripple beside it.
 
 Balance of the motor side in the joint's frame, speeds and torques at the motor (w = n v)::
 
-    K i - J_m n a - (b_m + b_iron) w = s (c_m r + h) + T/n (1 + mu r sign(T) s)
+    K i - J_m n a - (b_m + b_iron) w = s (c_m r + h) + (T + r s f(T))/n
     tau = T - s c_o r - b_o v - J_o a
 
 with i the drive's answer to the impedance law within current limit and supply voltage, s a smooth
-sign of the speed, r = 1 + extra exp(-(w/w_s)^2) of Stribeck, and mu the load-dependent friction of
-the direction in which power flows.
+sign of the speed, r = 1 + extra exp(-(w/w_s)^2) of Stribeck, and f the friction under load of
+the way that power flows (:mod:`cqdd_design.actuator.load_friction`).
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ from typing import Any
 import numpy as np
 
 from cqdd_design.actuator.joint_side import motor_coulomb, motor_viscous
+from cqdd_design.actuator.load_friction import carried_torque
 from cqdd_design.actuator.packing import gear_table, table_points
 from cqdd_design.actuator.parameters import (
     ActuatorParameters,
@@ -154,10 +155,9 @@ def physical_estimate(
         - ratio * motor_viscous(parameters) * speed
         - ratio * sign * (friction.motor_coulomb * rise + motor.dry_drag)
     )
-    forward = np.sign(left) * sign
-    load = np.where(forward > 0.0, friction.load_forward, friction.load_backward)
+    way = np.sign(left) * sign
     # Back-driven beyond self-locking the estimate would change its sign.
-    gear_torque = left / np.maximum(1.0 + load * rise * forward, 0.1)
+    gear_torque = np.sign(left) * carried_torque(friction, np.abs(left), rise, way, least=0.1)
     return np.asarray(
         gear_torque
         - sign * friction.output_coulomb * rise

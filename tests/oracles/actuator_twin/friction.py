@@ -17,10 +17,11 @@ def levels(
     n = abs(p.ratio)
     forward = toward * transmitted * p.ratio > 0.0
     load = p.load_forward if forward else p.load_backward
+    above = p.load_growth * max(abs(transmitted) - p.load_knee, 0.0)
     rises = []
     for fast in (guess / p.stribeck_speed, out_guess * n / p.stribeck_speed):
         rises.append(1.0 + (p.stribeck_extra * math.exp(-(fast**2)) if abs(fast) < 6 else 0.0))
-    level = (p.motor_coulomb + load * abs(transmitted) / n) * rises[0]
+    level = (p.motor_coulomb + load * (abs(transmitted) + above) / n) * rises[0]
     level += p.hysteresis + p.motor_dry
     return [level, p.output_coulomb * rises[1]]
 
