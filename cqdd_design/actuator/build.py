@@ -21,7 +21,7 @@ from cqdd_design.actuator.parameters import (
     ThermalParameters,
 )
 from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
-from cqdd_design.actuator.transmission import Transmission, transmission
+from cqdd_design.actuator.transmission import USUAL_LEAST, Transmission, transmission
 from cqdd_design.catalog.motors import DRAG, Motor
 from cqdd_design.design import Design
 from cqdd_design.errors import DesignError, GeometryError
@@ -324,18 +324,26 @@ def _gear(
         origins[f"gear.{key}"] = f"computed: contact equilibrium of {parts}, both senses"
     for key in ("stiffness_cosine", "stiffness_sine", "stiffening"):
         origins[f"gear.{key}"] = origins["gear.stiffness"]
+    if found.least_windup > USUAL_LEAST:
+        kept = (
+            f"; windup kept above {100.0 * found.least_windup:g} % of its mean, as the backlash "
+            "varies by more over the turn"
+        )
+        for key in ("stiffness_cosine", "stiffness_sine"):
+            origins[f"gear.{key}"] += kept
     origins["gear.error_torque"] = "design: continuous torque"
     origins["gear.ratio"] = "design: fixed ring, output against the motor"
     origins["gear.damping"] = (
         f"assumed: damping ratio {DAMPING_RATIO:g} with the motor's inertia, output held"
     )
+    felt = {key: value for key, value in vars(found).items() if key != "least_windup"}
     swinging = design.reducer.ratio**2 * (rotor_inertia + split.input)
     return GearParameters(
         ratio=-float(design.reducer.ratio),
         input_inertia=split.input,
         output_inertia=split.output,
         damping=2.0 * DAMPING_RATIO * math.sqrt(found.stiffness * swinging),
-        **vars(found),
+        **felt,
     )
 
 

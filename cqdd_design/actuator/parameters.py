@@ -27,6 +27,9 @@ from cqdd_design.errors import DesignError
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
+_NO_LOOK = 0.1
+"""Of the mean stiffness: where harmonics leave more in any case, their sum is not looked at."""
+
 
 def _refuse(table: str, key: str, value: float, wanted: str, fix: str) -> None:
     raise DesignError(f"{table}.{key} {value:g} is not {wanted}; {fix}.")
@@ -340,14 +343,23 @@ class GearParameters:
         return math.sqrt(0.5 * float(np.sum(self.error_cosine**2 + self.error_sine**2)))
 
 
-def refuse_variation(orders: IntArray, cosine: FloatArray, sine: FloatArray) -> None:
-    """Raise a `DesignError` where a stiffness of these relative harmonics (H,) falls to zero."""
+def least_stiffness(orders: IntArray, cosine: FloatArray, sine: FloatArray) -> float:
+    """Least of a stiffness over angle whose mean is 1, of these relative harmonics (H,).
+
+    Where they are small together, what they leave at least.
+    """
     swing = float(np.sum(np.hypot(cosine, sine)))
-    if swing < 1.0:
-        return
+    if swing < 1.0 - _NO_LOOK:
+        return 1.0 - swing
     turn = np.linspace(0.0, 2.0 * math.pi, 8 * int(np.max(orders)) + 1)
     angle = np.multiply.outer(turn, orders)
-    if 1.0 + float((np.cos(angle) @ cosine + np.sin(angle) @ sine).min()) <= 0.0:
+    return 1.0 + float((np.cos(angle) @ cosine + np.sin(angle) @ sine).min())
+
+
+def refuse_variation(orders: IntArray, cosine: FloatArray, sine: FloatArray) -> None:
+    """Raise a `DesignError` where a stiffness of these relative harmonics (H,) falls to zero."""
+    if least_stiffness(orders, cosine, sine) <= 0.0:
+        swing = float(np.sum(np.hypot(cosine, sine)))
         _refuse("gear", "stiffness_cosine", swing, "below 1 in sum", "lower the variation")
 
 

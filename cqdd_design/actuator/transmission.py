@@ -8,7 +8,9 @@ of the contact engine under T and -T::
     w(theta)   = -(Pi(T) + Pi(-T))/(2 T)        half of the backlash and p/(p+1) of the windup
     u(theta)   = mean u + ((p+1)/p) (w - mean w)    windup of a spring of exponent p
 
-The stiffness over angle is (mean u/u)^p, its mean set to 1. The torque that holds the motor under
+The stiffness over angle is (mean u/u)^p, its mean set to 1. Where the backlash of a drawn gearbox
+varies by more than it winds up, u is kept to so much of its mean that the harmonics of that stay
+above zero. The torque that holds the motor under
 the loads T and -T then varies over angle as dPi/dphi does in the contact engine; n times that is
 the torque ripple at the output. The loaded angle error itself is that of the mean load; mean
 windup, stiffening and backlash are those of the loaded curve.
@@ -22,11 +24,10 @@ from functools import lru_cache
 
 import numpy as np
 
-from cqdd_design.actuator.parameters import FloatArray, IntArray, refuse_variation
+from cqdd_design.actuator.parameters import FloatArray, IntArray, least_stiffness
 from cqdd_design.design import Design
 from cqdd_design.errors import DesignError
 from cqdd_design.gearbox.contact.model import ContactModel
-from cqdd_design.gearbox.contact.part_errors import GearboxErrors
 from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.contact.states import error_states, nominal_states
 from cqdd_design.gearbox.contact.sweep import (
@@ -47,10 +48,12 @@ _MOST_CONTACTS = 4_000_000
 """Of a drawn gearbox over its output turn: what a gigabyte of memory holds."""
 _PROBES = 24
 """Angles of that turn solved first: a gearbox that cannot be is soon refused."""
-_UNSURE = 0.1
-"""Of the backlash and of the windup: how far off the mean of those few angles is taken to be."""
-_LEAST_WINDUP = 0.25
-"""Share of the mean that no spot falls below, where backlash varies much."""
+_LEAST_WINDUPS = (0.25, 0.35, 0.5, 0.6, 0.7, 0.85, 1.0)
+"""Shares of the mean that no spot falls below, where backlash varies much: the first that leaves
+the stiffness enough of itself everywhere."""
+USUAL_LEAST = _LEAST_WINDUPS[0]
+_LEAST_STIFFNESS = 0.05
+"""Share of the mean."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +61,8 @@ class Transmission:
     """What the contact engine says of one gearbox at one torque, as in `GearParameters`.
 
     The stiffness is the secant from the end of the dead zone, the stiffening counts from half of
-    the torque to it, the backlash is the mean over the turn.
+    the torque to it, the backlash is the mean over the turn. `least_windup` is the share of its
+    mean that the windup is kept above.
     """
 
     error_torque: float
@@ -70,6 +74,7 @@ class Transmission:
     stiffness: float
     stiffening: float
     backlash: float
+    least_windup: float
 
 
 @lru_cache(maxsize=8)
@@ -94,8 +99,8 @@ def transmission(
     ContactError
         When the gearbox has no equilibrium at the torque.
     DesignError
-        When its springs do not wind up under load, or a drawn gearbox has too many contacts or a
-        stiffness that varies too much.
+        When its springs do not wind up under load, or by far less than the backlash of a drawn
+        gearbox varies, or that has too many contacts.
     """
     n = model.lobe_count
     if seed is None:
@@ -120,8 +125,6 @@ def transmission(
         )
         for load in (torque, 0.5 * torque)
     )
-    if errors is not None:
-        _refuse_varying(model, errors, whole, half)
     free = float(backlash(model, errors=errors, states=states).free.mean())
     return _felt(whole, half, free, per_turn)
 
@@ -154,8 +157,17 @@ def _felt(whole: _Loaded, half: _Loaded, free: float, per_turn: int) -> Transmis
     error = -(ahead.energy - behind.energy) / (2.0 * torque)
     work = -(ahead.energy + behind.energy) / (2.0 * torque)
     windup = mean + (power + 1.0) / power * (work - work.mean())
-    share = (mean / np.maximum(windup, _LEAST_WINDUP * mean)) ** power
-    orders, series = _harmonics(error, share / share.mean(), per_turn, mean)
+    for least in _LEAST_WINDUPS:
+        share = (mean / np.maximum(windup, least * mean)) ** power
+        orders, series = _harmonics(error, share / share.mean(), per_turn, mean)
+        if least_stiffness(orders, *series[2:]) >= _LEAST_STIFFNESS:
+            break
+    else:
+        raise DesignError(
+            f"at {torque:g} N*m the gearbox winds up by {math.degrees(mean) * 60.0:.2g} arcmin, "
+            "too little beside what its backlash varies by over the turn for a stiffness over "
+            "angle; raise requirements.continuous_torque, or tighten the tolerances."
+        )
     return Transmission(
         error_torque=torque,
         error_orders=orders,
@@ -166,34 +178,8 @@ def _felt(whole: _Loaded, half: _Loaded, free: float, per_turn: int) -> Transmis
         stiffness=torque / mean,
         stiffening=power,
         backlash=free,
+        least_windup=least,
     )
-
-
-def _refuse_varying(
-    model: ContactModel, errors: GearboxErrors, whole: _Loaded, half: _Loaded
-) -> None:
-    """Refuse a drawn gearbox whose stiffness varies too much, before its backlash is solved.
-
-    Backlash takes by far the longest, and the stiffness over angle needs no more of it than its
-    mean, which a few angles of the turn tell to a hundredth. Only what would be refused with much
-    less and much more backlash too is refused here.
-    """
-    some = nominal_states(model, output_turn_angles(model, _PROBES))
-    free = float(backlash(model, errors=errors, states=some).free.mean())
-    margin = _UNSURE * (free + half.opening)
-    refused = [_refusal(whole, half, max(at, 0.0)) for at in (free, free - margin, free + margin)]
-    if all(refused):
-        raise refused[0]  # type: ignore[misc]
-
-
-def _refusal(whole: _Loaded, half: _Loaded, free: float) -> DesignError | None:
-    """Why a gearbox of some backlash would be refused."""
-    try:
-        found = _felt(whole, half, free, 1)
-        refuse_variation(found.error_orders, found.stiffness_cosine, found.stiffness_sine)
-    except DesignError as error:
-        return error
-    return None
 
 
 def _refuse_too_many(model: ContactModel) -> None:

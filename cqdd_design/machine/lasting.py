@@ -1,7 +1,8 @@
 """What a machine holds for ever by the temperatures of all its parts: a torque, or a speed.
 
-The winding is one of them: grease, plastics and clearances may end it before, and warm parts lose
-another amount than those that the simulated actuator's friction was found of.
+The winding is one of them: grease and plastics may not stand as much, warm parts lose another
+amount than those that the simulated actuator's friction was found of, and they may press on each
+other before any of them is too warm.
 """
 
 from __future__ import annotations
@@ -18,10 +19,14 @@ _NEAR = 1e-2
 _LOOKS = 10
 _FARTHEST = 0.1
 """Share of what is too much, below which nothing is tried next."""
+_LEAST = 0.02
+"""Share of the most, below which nothing is looked for."""
 
 
-def lasting_torque(machine: Machine, most: float, speed: float, holds: float = 0.0) -> float:
-    """The greatest torque, N m, up to `most`, that leaves parts cool and clearances open for ever.
+def lasting_torque(
+    machine: Machine, most: float, speed: float, holds: float = 0.0, *, free: bool = True
+) -> float:
+    """The greatest torque, N m, up to `most`, that leaves every part as cool as it has to be.
 
     Parameters
     ----------
@@ -31,6 +36,8 @@ def lasting_torque(machine: Machine, most: float, speed: float, holds: float = 0
         Of the motor, rad/s.
     holds : float
         A torque below that, N m, that is known to; 0 where none is.
+    free : bool
+        Whether it has to leave parts free of each other too.
 
     Returns
     -------
@@ -43,16 +50,16 @@ def lasting_torque(machine: Machine, most: float, speed: float, holds: float = 0
         When the network or the losses are not known.
     """
     turning = _turning(machine, speed)
-    return _greatest(lambda torque: _used(turning, torque), most, holds)
+    return _greatest(lambda torque: _used(turning, torque, free=free), most, holds)
 
 
 def lasting_speed(machine: Machine, most: float) -> float:
-    """The greatest speed of the motor, rad/s, up to `most`, that leaves parts so for ever.
+    """The greatest speed of the motor, rad/s, up to `most`, that leaves every part cool enough.
 
     Under the continuous torque; see :func:`lasting_torque`.
     """
     torque = machine.design.requirements.continuous_torque
-    return _greatest(lambda speed: _used(_turning(machine, speed), torque), most, 0.0)
+    return _greatest(lambda speed: _used(_turning(machine, speed), torque, free=False), most, 0.0)
 
 
 def _turning(machine: Machine, speed: float) -> Machine:
@@ -62,14 +69,18 @@ def _turning(machine: Machine, speed: float) -> Machine:
     return other
 
 
-def _used(machine: Machine, torque: float) -> float:
-    """Of the rise that parts bear under a torque, N m; infinite where warm parts press."""
+def _used(machine: Machine, torque: float, *, free: bool) -> float:
+    """Of the rise that parts bear under a torque, N m; infinite where they are not known to.
+
+    And where warm parts press on each other, if they have to be free.
+    """
     peak = max(machine.design.requirements.peak_torque, torque)
     held = machine_temperatures(machine.under(peak=peak, continuous=torque), duty=False)
     share = held.heat_share
-    if share <= 1.0 and (held.cold or held.tightest.overlap > 1e-6 * BINDING_OVERLAP):
-        return math.inf
-    return share
+    if share > 1.0:
+        return share
+    pressing = free and held.tightest.overlap > 1e-6 * BINDING_OVERLAP
+    return math.inf if held.cold or pressing else share
 
 
 def _greatest(used: Callable[[float], float], most: float, holds: float) -> float:
@@ -79,7 +90,7 @@ def _greatest(used: Callable[[float], float], most: float, holds: float) -> floa
         return most
     below, above = holds, most
     for _ in range(_LOOKS):
-        if above - below <= _NEAR * above:
+        if above - below <= _NEAR * above or above < _LEAST * most:
             break
         at = _next(known, below, above)
         known[at] = used(at)

@@ -158,17 +158,20 @@ def _lasting(
     if machine.stiff or actuator is None or not heat_checks:
         return None
     asked = machine.design.requirements
+    rise, clearance = heat_checks
+    # Parts that press on each other as asked do so for other reasons than a torque.
+    free = clearance.known and clearance.status == "pass"
     if asked.load_cases:
         speed, holds = lasting_speed_of(asked), 0.0
         most = float(held_torque(actuator, speed / asked.ratio)[0])
     else:
         speed, most = asked.held_speed, demands(actuator, asked)[1].found.most
-        cool = all(line.known and line.status == "pass" for line in heat_checks)
+        cool = rise.known and rise.status == "pass"
         holds = asked.continuous_torque if cool else 0.0
     if most <= holds or most <= 0.0:
         return most
     try:
-        return lasting_torque(machine, most, speed, holds)
+        return lasting_torque(machine, most, speed, holds, free=free)
     except (ContactError, DesignError, GeometryError):
         return None
 

@@ -116,14 +116,15 @@ def _continuous(evidence: Evidence, by_id: dict[str, Check]) -> Figure:
     heat, whose = by_id["THERMAL-RISE"], "this speed of the motor"
     if asked.continuous_speed is None:
         whose = "the duty's mean speed of the motor"
-    value, alone, lasting = None, "", evidence.lasting_torque
+    value, alone, lasting, known = None, "", evidence.lasting_torque, OPERATING
     if evidence.actuator is not None:
         value = float(held_torque(evidence.actuator, speed / asked.ratio)[0])
         alone = "" if value > 0.0 else ": friction alone heats the winding too much there"
         if lasting is not None and lasting < value:
-            value, alone = lasting, ", as far as all parts stand it"
+            value, known = lasting, f"{OPERATING}, as far as all parts stand it"
+            alone = "" if value > 0.0 else ": drag alone makes parts too warm or press there"
     basis = (
-        f"{OPERATING}, for ever at {whose}{alone}; not asked for, the duty's heat decides, see the "
+        f"{known}, for ever at {whose}{alone}; not asked for, the duty's heat decides, see the "
         "temperature"
     )
     return Figure(name, title, value, "N*m", None, heat.status, basis)

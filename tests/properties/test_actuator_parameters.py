@@ -13,20 +13,26 @@ import pytest
 from examples import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+from numpy.typing import NDArray
 from scipy.linalg import expm
+from scipy.optimize import brentq
 
 from cqdd_design.actuator import motor as motors
 from cqdd_design.actuator import operating
 from cqdd_design.actuator import thermal as thermals
 from cqdd_design.actuator import transmission as transmissions
 from cqdd_design.actuator.build import actuator_parameters
+from cqdd_design.actuator.demands import demands
 from cqdd_design.actuator.friction import friction_parameters
 from cqdd_design.actuator.joint_side import backdrive_dynamic, backdrive_static
+from cqdd_design.actuator.load_friction import load_friction
 from cqdd_design.actuator.packing import gear_table, kinematic_error, stiffness_share
 from cqdd_design.actuator.parameters import (
     ActuatorParameters,
     MotorParameters,
     ThermalParameters,
+    least_stiffness,
     refuse_variation,
 )
 from cqdd_design.actuator.scenario import Command, Constant, Load, Scenario, Start
@@ -39,7 +45,7 @@ from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.sweep import contact_sweep, output_turn_angles
 from cqdd_design.gearbox.losses import LossModel
 from cqdd_design.gearbox.tolerance.draws import draw_errors
-from cqdd_design.machine import resolve
+from cqdd_design.machine import Machine, resolve
 
 PAPER = load_design(Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml")
 MOTOR = MotorParameters(0.1736, 0.143, 137e-6, 5.6e-4, 21, 4.0, 12.0, iron_loss=1e-4)
@@ -163,35 +169,88 @@ def test_a_winding_that_runs_away_follows_the_network_until_numbers_would_end() 
     assert (late > 1e6).all()
 
 
-VARIES = r"gear\.stiffness_cosine [\d.]+ is not below 1 in sum; lower the variation"
-
-
 @pytest.mark.parametrize("seed", [1, 2])
-def test_a_stiffness_that_varies_too_much_is_refused_before_the_backlash_is_solved(
+def test_a_gearbox_whose_backlash_varies_by_more_than_it_winds_up_can_be_simulated(
     monkeypatch: pytest.MonkeyPatch, seed: int
 ) -> None:
-    """Backlash is nine tenths of the work; what its few angles refuse, the whole turn refuses."""
-    solved: list[int] = []
-
-    def counted(model: object, *, errors: object, states: object) -> object:
-        solved.append(len(states.crank_angle))
-        return solve(model, errors=errors, states=states)
-
-    solve = transmissions.backlash
-    monkeypatch.setattr(transmissions, "backlash", counted)
+    """Its windup is kept to a share of its mean: the stiffness is above zero, and that is told."""
     model = resolve(PAPER).contact
-    with pytest.raises(DesignError, match=VARIES):
+    felt = transmissions.transmission(model, PAPER, 1.0, seed=seed)
+    assert felt.least_windup > transmissions.USUAL_LEAST
+    series = felt.error_orders, felt.stiffness_cosine, felt.stiffness_sine
+    assert least_stiffness(*series) >= 0.05
+    weak = PAPER.replacing({"requirements.continuous_torque": 1.0})
+    told = actuator_parameters(resolve(weak), Specimen(seed=seed)).origins["gear.stiffness_sine"]
+    assert f"windup kept above {100.0 * felt.least_windup:g} % of its mean" in told
+    # With less of it kept the stiffness falls too low, which says what to change.
+    below = [one for one in transmissions._LEAST_WINDUPS if one < felt.least_windup]
+    monkeypatch.setattr(transmissions, "_LEAST_WINDUPS", below)
+    transmissions.transmission.cache_clear()
+    with pytest.raises(DesignError, match=r"raise requirements\.continuous_torque, or tighten"):
         transmissions.transmission(model, PAPER, 1.0, seed=seed)
-    assert solved == [24]
-    monkeypatch.setattr(transmissions, "_refuse_varying", lambda *args: None)
-    whole = transmissions.transmission(model, PAPER, 1.0, seed=seed)
-    with pytest.raises(DesignError, match=VARIES):
-        refuse_variation(whole.error_orders, whole.stiffness_cosine, whole.stiffness_sine)
 
 
-def test_a_stiffness_that_varies_much_but_keeps_above_zero_is_not_refused() -> None:
+def test_a_stiffness_that_varies_much_but_keeps_above_zero_is_kept() -> None:
     found = transmissions.transmission(resolve(PAPER).contact, PAPER, 4.0, seed=1)
     assert np.sum(np.hypot(found.stiffness_cosine, found.stiffness_sine)) > 2.0
+    usual = transmissions.transmission(resolve(PAPER).contact, PAPER, 40.0, seed=1)
+    assert usual.least_windup == transmissions.USUAL_LEAST
+
+
+@given(arrays(float, 4, elements=st.floats(-1.0, 1.0)))
+def test_the_least_of_a_stiffness_is_that_of_its_series(waves: NDArray[np.float64]) -> None:
+    orders = np.array([3, 10])
+    turn = np.linspace(0.0, 2.0 * np.pi, 4001)[:, None] * orders
+    series = 1.0 + np.cos(turn) @ waves[:2] + np.sin(turn) @ waves[2:]
+    found = least_stiffness(orders, waves[:2], waves[2:])
+    # Where little is varied it is what the harmonics leave together, and that is less.
+    assert found <= series.min() + 0.06 * np.abs(waves).sum()
+    if found <= 0.0:
+        with pytest.raises(DesignError, match=r"gear\.stiffness_cosine [\d.]+ is not below 1"):
+            refuse_variation(orders, waves[:2], waves[2:])
+
+
+def gallery(name: str) -> Machine:
+    return resolve(load_design(Path(__file__).resolve().parents[2] / f"docs/gallery/{name}.toml"))
+
+
+@pytest.mark.parametrize("name", ["plain-10", "knee-8"])
+def test_friction_at_the_peak_torque_is_that_of_the_loss_model(name: str) -> None:
+    """With films it is a third more of the torque there than at the continuous one.
+
+    As an audit found: one share of it told a peak torque that was 6 to 10 % too high.
+    """
+    machine = gallery(name)
+    friction, asked = actuator_parameters(machine).friction, machine.design.requirements
+    peak, speed, n = asked.peak_torque, asked.input_speed, machine.design.reducer.ratio
+    for torque in (asked.continuous_torque, peak):
+        none, some = machine.losses.coulomb_work([0.0, torque], "drive", speed).sum(-1)
+        lost = n * float(some - none)
+        assert load_friction(friction, torque) == pytest.approx(lost, rel=1e-9)
+    assert load_friction(friction, peak) / peak > 1.25 * friction.load_forward
+    # Between them it is near.
+    some, none = machine.losses.coulomb_work([2.5 * asked.continuous_torque, 0.0], "drive", speed)
+    between = n * float(some.sum() - none.sum())
+    assert load_friction(friction, 2.5 * asked.continuous_torque) == pytest.approx(
+        between, rel=0.05
+    )
+
+
+@pytest.mark.parametrize("name", ["plain-10", "knee-8"])
+def test_the_peak_torque_is_what_losses_at_rest_leave_of_the_motor(name: str) -> None:
+    """Of the driver's current what the loss model takes at rest, found on its own way."""
+    machine = gallery(name)
+    one, asked, losses = actuator_parameters(machine), machine.design.requirements, machine.losses
+    told = demands(one, asked)[0].found.most
+    n = machine.design.reducer.ratio
+    shaft = one.motor.torque_constant * one.peak_current - one.motor.dry_drag
+    drag = sum(float(value) for value in losses.machine.drag(0.0).values())
+
+    def left(torque: float) -> float:
+        work = float(losses.coulomb_work(torque, "drive", 0.0).sum())
+        return n * (shaft - drag - work) - torque
+
+    assert told == pytest.approx(brentq(left, 1.0, n * shaft), rel=0.02)
 
 
 def test_friction_keeps_efficiencies_and_backdrive_torques() -> None:

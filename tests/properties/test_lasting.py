@@ -20,8 +20,13 @@ NEAR = 1.02
 """Of a torque that is told within a per cent from below, what is too much."""
 
 
-def cool(machine: Machine, torque: float, speed: float | None = None) -> bool:
-    """Whether all lines of heat hold under a continuous torque, N m, at a speed, rad/s."""
+def cool(
+    machine: Machine, torque: float, speed: float | None = None, *, free: bool = False
+) -> bool:
+    """Whether no part is too warm under a continuous torque, N m, at a speed, rad/s.
+
+    And whether none presses on another for that, if they have to be free.
+    """
     asked = machine.design.requirements
     changes: dict[str, object] = {
         "requirements.peak_torque": max(asked.peak_torque, torque),
@@ -29,8 +34,9 @@ def cool(machine: Machine, torque: float, speed: float | None = None) -> bool:
     }
     if speed is not None:
         changes["requirements.continuous_speed"] = speed
-    lines = heat_checks(machine_temperatures(machine.changed(changes)))
-    return all(line.known and line.status != "fail" for line in lines)
+    rise, clearance = heat_checks(machine_temperatures(machine.changed(changes)))
+    every = (rise, clearance) if free else (rise,)
+    return all(line.known and line.status == "pass" for line in every)
 
 
 @pytest.mark.parametrize("key", ["cqdd", "plastics"])
@@ -39,20 +45,25 @@ def test_a_torque_that_lasts_is_the_greatest(key: str, machines: dict[str, Machi
     speed = machine.design.requirements.held_speed
     found = lasting_torque(machine, 9.0, speed)
     assert 0.0 < found < 9.0
-    assert cool(machine, found)
-    assert not cool(machine, NEAR * found)
+    assert cool(machine, found, free=True)
+    assert not cool(machine, NEAR * found, free=True)
+    # Warm parts that may press on each other stand more, or plastics are too warm before.
+    pressing = lasting_torque(machine, 9.0, speed, free=False)
+    assert cool(machine, pressing)
+    assert not cool(machine, NEAR * pressing)
+    assert (pressing > 1.5 * found) == (key == "cqdd")
     # One that is known to hold leads to the same, and one that all stand is told as it is.
     assert lasting_torque(machine, 9.0, speed, 0.8 * found) == pytest.approx(found, rel=0.01)
     assert lasting_torque(machine, 0.9 * found, speed) == 0.9 * found
 
 
 def test_a_speed_that_lasts_is_the_greatest(machines: dict[str, Machine]) -> None:
-    machine = machines["cqdd"].changed({"requirements.continuous_torque": 4.0})
+    machine = machines["cqdd"].changed({"requirements.continuous_torque": 9.0})
     fastest = machine.design.requirements.input_speed
     found = lasting_speed(machine, fastest)
     assert 0.0 < found < fastest
-    assert cool(machine, 4.0, found)
-    assert not cool(machine, 4.0, NEAR * found)
+    assert cool(machine, 9.0, found)
+    assert not cool(machine, 9.0, NEAR * found)
 
 
 def test_the_verdict_promises_no_torque_that_its_heat_forbids(hot: Verdict) -> None:
@@ -87,5 +98,5 @@ def machines() -> dict[str, Machine]:
 @pytest.fixture(scope="module")
 def hot(machines: dict[str, Machine]) -> Verdict:
     """The paper's actuator under a continuous torque that it does not hold at its input speed."""
-    changes = {"requirements.peak_torque": 20.0, "requirements.continuous_torque": 5.0}
+    changes = {"requirements.peak_torque": 20.0, "requirements.continuous_torque": 9.0}
     return judge(machines["cqdd"].changed(changes), samples=0)
