@@ -22,7 +22,7 @@ from cqdd_design.design.problems import describe_problems
 from cqdd_design.design.reducer import Reducer
 from cqdd_design.design.requirements import Requirements
 from cqdd_design.design.tables import delete_key, dump, insert_key, leaves, leaves_of
-from cqdd_design.errors import DesignError, is_unprintable
+from cqdd_design.errors import DesignError, is_unprintable, shown
 from cqdd_design.files import refuse_extremes
 from cqdd_design.units import CURRENT, LENGTH, VOLTAGE, format_quantity
 
@@ -172,6 +172,7 @@ class Design(FrozenModel):
         DesignError
             One sentence a problem: key, value, range and nearest fix.
         """
+        _refuse_no_mapping(data, source)
         refuse_extremes(data, source, wrong=DesignError)
         try:
             design = cls.model_validate(dict(data), context={"si": si})
@@ -279,6 +280,7 @@ class Design(FrozenModel):
 
         Keys that were assumed before stay assumed unless they are among the changes.
         """
+        _refuse_no_mapping(changes, self.name)
         mapping = self.to_mapping()
         for key in self.assumed:
             delete_key(mapping, key)
@@ -350,6 +352,14 @@ class Design(FrozenModel):
         mapping = dump(self) | ({} if log is None else {"duty_digest": log.digest})
         text = json.dumps(mapping, sort_keys=True, ensure_ascii=False)
         return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _refuse_no_mapping(given: object, source: str) -> None:
+    if not isinstance(given, Mapping):
+        raise DesignError(
+            f"{source}: {shown(given)} is no mapping of keys to values, such as "
+            '{"reducer.eccentricity": "1.2 mm"} or tables of a design file.'
+        )
 
 
 def _is_part_of_file_names(name: str) -> bool:

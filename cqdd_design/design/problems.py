@@ -47,8 +47,13 @@ def describe_problems(error: ValidationError, model: type[BaseModel], source: st
 def listed(sentences: Sequence[str], source: str) -> DesignError:
     """One `DesignError` that tells sentences, each without its last stop, about a file."""
     if len(sentences) == 1:
-        return DesignError(f"{source}: {sentences[0]}.")
-    return DesignError(f"{source}:\n" + "\n".join(f"  - {text}." for text in sentences))
+        return DesignError(f"{source}: {_stopped(sentences[0])}")
+    return DesignError(f"{source}:\n" + "\n".join(f"  - {_stopped(text)}" for text in sentences))
+
+
+def _stopped(sentence: str) -> str:
+    """With its last stop, unless it asks."""
+    return sentence if sentence.endswith("?") else f"{sentence}."
 
 
 def _without_consequences(found: list[Any]) -> list[Any]:

@@ -22,6 +22,7 @@ from cqdd_design.errors import CatalogError, nearest_names
 from cqdd_design.units import QuantityIn, format_quantity
 
 _EXAMPLES = "examples"
+_EXAMPLE = "example"
 _REMARKS_AT = 44
 """Column of the remarks."""
 _NOT_OF_ROW = ("name", "based_on", "speed_constant", "winding_limit")
@@ -133,9 +134,10 @@ def requirements_template() -> str:
     """A requirements file with all that `size` can be asked for."""
     asked = Requirements.model_validate({"ratio": 10})
     lines = [
-        "# What a gearbox must do, for `cqdd-design size --requirements FILE`. Only ratio has no",
-        "# default; take the # off what you want otherwise. [motor] may describe a motor of your",
-        "# own with the keys of `cqdd-design new motor`.",
+        "# What a gearbox must do, for `cqdd-design size --requirements FILE`. Take the # off",
+        "# what you want: behind it stands the default, or an example of what is not asked for",
+        "# unless it is stated. Torques that are left out are what motor and gearbox can do.",
+        "# [motor] may describe a motor of your own with the keys of `cqdd-design new motor`.",
         "",
         "[requirements]",
         *_lines(Requirements, dump(asked), {"ratio"}),
@@ -166,9 +168,9 @@ def design_template() -> str:
     design = Design.from_mapping({"name": "design", "reducer": reducer})
     assumed = set(design.assumed)
     lines = [
-        "# A design: what `cqdd-design check`, `report`, `export` and others read. Keys behind a #",
-        "# have a default, which is shown; take the # off to change them. `cqdd-design size` finds",
-        "# such a design for what you require.",
+        "# A design: what `cqdd-design check`, `report`, `export` and others read. Behind a #",
+        "# stands the default of a key, or an example of what counts only where it is stated;",
+        "# take the # off to change it. `cqdd-design size` finds such a design for what you require.",
         "",
     ]
     # Its name is that of the file, wherever it is put.
@@ -232,11 +234,12 @@ def _lines(model: type[BaseModel], values: Mapping[str, Any], given: set[str]) -
         if key in values:
             yield _line(key, values[key], _range(field), given=key in given)
         elif key in _TABLES:
-            yield f"# {key} = {_TABLES[key]}"
+            yield f"# {key} = {_TABLES[key]}   # {_EXAMPLE}"
         elif field.default is None:
             dimension = field_dimension(field)
             plain = "" if dimension is None else dimension.example().strip('"')
-            yield _line(key, _ASKED.get(key, plain), _range(field), given=False)
+            remark = "; ".join(words for words in (_EXAMPLE, _range(field)) if words)
+            yield _line(key, _ASKED.get(key, plain), remark, given=False)
     if issubclass(model, MotorData):
         yield "# and the keys of `cqdd-design new motor`, for a motor that the catalogue lacks"
 

@@ -76,8 +76,9 @@ def load_charts(analysis: GearboxAnalysis) -> tuple[Figure, ...]:
                 "Hertz pressure, greatest of all discs",
                 f"Greatest Hertz pressure at ring teeth and output pins {over}, with the limits "
                 "of the peak torque.",
-                "Raw pressures, without the factor for uneven sharing that the checks apply "
-                f"(√{UNEVEN_SHARING:g} on pressures).",
+                "By the rigid law, without the factor for uneven sharing of a search's first "
+                f"screen (√{UNEVEN_SHARING:g} on pressures); the verdict's pressures are those of "
+                "the contact equilibrium.",
             ),
             "pressure, MPa",
             [

@@ -99,8 +99,9 @@ def model_assumptions(design: Design) -> tuple[str, ...]:
         "One disc carries the whole torque."
         if reducer.disc_count == 1
         else f"The {reducer.disc_count} discs share the torque equally, and the rigid law shares "
-        "it among teeth and pins; checks of ring and pins multiply forces by "
-        f"{UNEVEN_SHARING:g} for what is uneven."
+        "it among teeth and pins; the first screen of a search multiplies these forces by "
+        f"{UNEVEN_SHARING:g} for what is uneven. The verdict's own are those of the contact "
+        "equilibrium."
     )
     pins = (
         _JOINTS[reducer.carrier.joint]
