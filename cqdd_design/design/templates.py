@@ -170,7 +170,7 @@ def design_template() -> str:
     lines = [
         "# A design: what `cqdd-design check`, `report`, `export` and others read. Behind a #",
         "# stands the default of a key, or an example of what counts only where it is stated;",
-        "# take the # off to change it. `cqdd-design size` finds such a design for what you require.",
+        "# take the # off to change it. `cqdd-design size` finds one for what you require.",
         "",
     ]
     # Its name is that of the file, wherever it is put.
