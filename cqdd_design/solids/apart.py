@@ -7,7 +7,9 @@ thing with all that it pushes before it, such as the carrier with discs and shaf
 together on the bench (Wilson and Latombe 1994, blocking graphs). Columns, pins and their sleeves
 leave as soon as they can: put in any earlier they would have nothing to stand in. Pins that cannot
 before their ring leave with it. What is bonded into a part that comes in later, as magnets into
-their bell, and weights on it, leaves with it and is a unit too. Put together is the same backwards.
+their bell, and weights on it, leaves with it and is a unit too. So does a cam bearing with the disc
+that it is pressed into: once it is on its lobe, the force would run through its balls. Put together
+is the same backwards.
 """
 
 from __future__ import annotations
@@ -110,11 +112,19 @@ def taken_apart(design: Design, parts: Sequence[Part]) -> tuple[tuple[Step, ...]
 def _bonds(things: Sequence[_Thing]) -> _Bonds:
     """Rotor and stator of a motor with what carries them, balance weights with their bell.
 
+    Cam bearings with their discs.
+
     A stator goes with the housing that it is bonded on, the encoder's magnet with its shaft, pins
     with the ring in whose pockets they stand; these may leave it, but it does not leave them.
     """
     bonds: _Bonds = {}
     for host in things:
+        if host.station.body.kind == "disc" and host.station.part.source == "make":
+            pressed = host.station.name.replace("disc", "cam bearing")
+            inside = [one for one in things if one.station.name == pressed]
+            bonds.setdefault(id(host), []).extend(inside)
+            for bearing in inside:
+                bonds.setdefault(id(bearing), []).append(host)
         if host.station.part.name == "ring":
             bonds[id(host)] = [one for one in things if one.station.part.name in _IN_POCKETS]
         for joint in host.station.part.features:
@@ -140,7 +150,8 @@ def _take(things: list[_Thing], unit: str, bonds: _Bonds) -> tuple[tuple[Step, .
     left = list(things)
     steps: list[Step] = []
     while len(left) > 1:
-        split = _next(left, bonds) or _next_unit(left, bonds)
+        # What is left last may be one bond.
+        split = _next(left, bonds) or _next_unit(left, bonds) or _next(left, {})
         if split is None:
             return tuple(steps), False
         group, way = split

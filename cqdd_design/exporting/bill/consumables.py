@@ -65,13 +65,13 @@ def bonds(machine: Machine) -> tuple[Bond, ...]:
     """Every cylindrical bond that is drawn."""
     layout = machine.layout
     carrier, stub = layout.carrier, layout.shaft.support.bearing.bore_diameter
-    motor, outside, found = layout.motor_end, layout.motor is not None, []
+    motor, around, found = layout.motor_end, layout.motor is not None, []
     if motor is not None:
         ring, stack = motor.ring_top - motor.ring_bottom, motor.stack_top - motor.stack_bottom
         hub, held = motor.hub_top - motor.hub_bottom, _gap("F7", "k6", stub)
         on_stub, in_rotor, seat = "hub on the shaft", "rotor on its hub", "stator in the cover"
         wide, stator = motor.rotor_inner, motor.stack_outer
-        if outside:
+        if around:
             on_stub, in_rotor = "bell on the shaft", "magnets in the bell"
             seat = "stator on the housing"
             wide, stator = motor.rotor_outer, motor.stack_inner
@@ -80,6 +80,9 @@ def bonds(machine: Machine) -> tuple[Bond, ...]:
             Bond(in_rotor, 2.0 * wide, ring, _LEAST_GAP),
             Bond(seat, 2.0 * stator, stack, _LEAST_GAP),
         ]
+    support = layout.shaft.support.bearing
+    outside, gap = support.outer_diameter, _gap(zones.HOUSED, "h6", support.outer_diameter)
+    found.append(Bond("outer rings of the shaft bearings", outside, support.width, gap, 2))
     pin = carrier.pin.nominal_diameter
     if carrier.bonded_in_cap:
         depth = -layout.pack.gap - carrier.shoulder_bottom

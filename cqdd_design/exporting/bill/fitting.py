@@ -82,7 +82,9 @@ def _bearings(machine: Machine, parts: dict[str, Part]) -> dict[str, str]:
             layout.shaft.support.bearing.outer_diameter,
             parts.values(),
             ("eccentric shaft", "housing", "carrier plate"),
-        ),
+        )
+        + f"; the load turns with the shaft, so {ROTOR_COMPOUND.name} keeps the outer rings from "
+        "creeping in their seats",
         "output bearing": _seated(
             layout.carrier.output.bearing.bore_diameter,
             layout.carrier.output.bearing.outer_diameter,
