@@ -8,6 +8,7 @@ way must lead to the housing.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -133,8 +134,9 @@ def retention(parts: Sequence[Part], layout: Layout) -> tuple[Retained, ...]:
     for upward in (True, False):
         stops = [dict(_stops(i, every, upward=upward, most=most)) for i in range(len(every))]
         steps = _steps_to_ground(every, groups, stops)
+        plays = _plays_to_ground(every, groups, stops)
         for i, found in enumerate(told):
-            found.append(_stop(i, every, groups, ways[i], stops, steps))
+            found.append(_stop(i, every, groups, ways[i], stops, steps, plays))
     return tuple(
         Retained(one.name, _bearing(one, layout), *found)
         for one, found in zip(every, told, strict=True)
@@ -300,6 +302,23 @@ def _steps_to_ground(
     return steps
 
 
+def _plays_to_ground(
+    every: Sequence[Station], groups: Sequence[int], stops: Sequence[dict[int, Stop]]
+) -> dict[int, float]:
+    """Groups from which stops lead to the housing, with the least sum of gaps on the way, m."""
+    plays = {groups[i]: 0.0 for i, one in enumerate(every) if one.part.name == "housing"}
+    for _ in range(len(every)):
+        before = dict(plays)
+        for i, found in enumerate(stops):
+            for j, stop in found.items():
+                if groups[j] in before:
+                    way = before[groups[j]] + (stop.play or 0.0)
+                    plays[groups[i]] = min(way, plays.get(groups[i], way))
+        if plays == before:
+            break
+    return plays
+
+
 def _stop(
     i: int,
     every: Sequence[Station],
@@ -307,8 +326,12 @@ def _stop(
     how: str,
     stops: Sequence[dict[int, Stop]],
     steps: dict[int, int],
+    plays: dict[int, float],
 ) -> Stop:
-    """What holds a station: how it is fastened, else the nearest face on the way to the housing."""
+    """What holds a station: how it is fastened, else the nearest face on the way to the housing.
+
+    That may be of another that floats before the same stop, as a sleeve before the next one.
+    """
     if every[i].part.name == "housing":
         return Stop("what it is fixed to", 0.0)
     own = steps.get(groups[i])
@@ -318,6 +341,10 @@ def _stop(
         return Stop(how, 0.0)
     members = [k for k in range(len(every)) if groups[k] == groups[i]]
     found = [
-        stop for k in members for j, stop in stops[k].items() if steps.get(groups[j], own) < own
+        stop
+        for k in members
+        for j, stop in stops[k].items()
+        if steps.get(groups[j], own) < own
+        or (stop.play or 0.0) + plays.get(groups[j], math.inf) <= plays[groups[i]] + _TOUCHING
     ]
     return min(found, key=lambda stop: (round(stop.play or 0.0, 9), -stop.face))
