@@ -330,7 +330,7 @@ def _stop(
 ) -> Stop:
     """What holds a station: how it is fastened, else the nearest face on the way to the housing.
 
-    That may be of another that floats before the same stop, as a sleeve before the next one.
+    That may be of its like before the same stop, as of the next sleeve on a pin.
     """
     if every[i].part.name == "housing":
         return Stop("what it is fixed to", 0.0)
@@ -345,6 +345,9 @@ def _stop(
         for k in members
         for j, stop in stops[k].items()
         if steps.get(groups[j], own) < own
-        or (stop.play or 0.0) + plays.get(groups[j], math.inf) <= plays[groups[i]] + _TOUCHING
+        or (
+            every[j].part.name == every[k].part.name
+            and (stop.play or 0.0) + plays.get(groups[j], math.inf) <= plays[groups[i]] + _TOUCHING
+        )
     ]
     return min(found, key=lambda stop: (round(stop.play or 0.0, 9), -stop.face))

@@ -323,3 +323,15 @@ def test_layouts_of_any_size_leave_walls(ring: int) -> None:
     assert min(one.thickness for one in walls) >= 0.4e-3 - 1e-9, min(
         walls, key=lambda one: one.thickness
     )
+
+
+def test_what_floats_beside_its_like_is_held_by_it() -> None:
+    """Of two needle bearings on a pin the farther one meets the nearer, and that the cap."""
+    printed = resolve(load_design(DESIGNS / "printed-13.toml"))
+    lower, upper = (
+        row for row in retention(printed.parts, printed.layout) if row.name == "pin needle bearing"
+    )
+    assert (lower.up.by, upper.down.by) == ("pin needle bearing", "pin needle bearing")
+    assert (lower.up.play, upper.down.play) == (0.0, 0.0)
+    assert (lower.down.by, upper.up.by) == ("carrier cap", "carrier plate")
+    assert lower.down.play == pytest.approx(4e-3)
