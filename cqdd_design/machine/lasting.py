@@ -53,13 +53,13 @@ def lasting_torque(
     return _greatest(lambda torque: _used(turning, torque, free=free), most, holds)
 
 
-def lasting_speed(machine: Machine, most: float) -> float:
+def lasting_speed(machine: Machine, most: float, *, free: bool = True) -> float:
     """The greatest speed of the motor, rad/s, up to `most`, that leaves every part cool enough.
 
     Under the continuous torque; see :func:`lasting_torque`.
     """
     torque = machine.design.requirements.continuous_torque
-    return _greatest(lambda speed: _used(_turning(machine, speed), torque, free=False), most, 0.0)
+    return _greatest(lambda speed: _used(_turning(machine, speed), torque, free=free), most, 0.0)
 
 
 def _turning(machine: Machine, speed: float) -> Machine:

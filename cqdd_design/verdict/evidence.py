@@ -158,20 +158,20 @@ def _lasting(
     if machine.stiff or actuator is None or not heat_checks:
         return None
     asked = machine.design.requirements
-    rise, clearance = heat_checks
-    # Parts that press on each other as asked do so for other reasons than a torque.
-    free = clearance.known and clearance.status == "pass"
+    rise, clearance = (line.known and line.status == "pass" for line in heat_checks)
     if asked.load_cases:
         speed, holds = lasting_speed_of(asked), 0.0
         most = float(held_torque(actuator, speed / asked.ratio)[0])
     else:
         speed, most = asked.held_speed, demands(actuator, asked)[1].found.most
-        cool = rise.known and rise.status == "pass"
-        holds = asked.continuous_torque if cool else 0.0
+        holds = asked.continuous_torque if rise else 0.0
     if most <= holds or most <= 0.0:
         return most
+    # Parts that are cool and press on each other do so for other reasons than a torque.
+    ways = (True,) if clearance else (False,) if rise else (True, False)
     try:
-        return lasting_torque(machine, most, speed, holds, free=free)
+        found = (lasting_torque(machine, most, speed, holds, free=free) for free in ways)
+        return next((torque for torque in found if torque > 0.0), 0.0)
     except (ContactError, DesignError, GeometryError):
         return None
 

@@ -219,7 +219,9 @@ def _slower(actuator: ActuatorParameters, machine: Machine, *, parts: bool) -> s
     told = held_up_to(actuator, asked)
     if told and parts:
         with suppress(DesignError):
-            told = rounded_down(lasting_speed(machine, told / _RPM) * _RPM)
+            found = (lasting_speed(machine, told / _RPM, free=free) for free in (True, False))
+            lasting = next((speed for speed in found if speed > 0.0), 0.0)
+            told = rounded_down(lasting * _RPM) if lasting else 0.0
     if not told:
         return ""
     if asked.continuous_speed is None:
