@@ -179,7 +179,7 @@ def _driven_back(friction: FrictionParameters, left: float, rise: float) -> floa
     beyond = 1.0 - friction.load_backward * rise * (1.0 + friction.load_growth)
     if below <= 0.0 or (beyond <= 0.0 and left > below * friction.load_knee):
         return math.inf
-    return float(carried_torque(friction, left, rise, -1.0, least=0.0))
+    return float(carried_torque(friction, left, rise, -1.0, least=1e-12))
 
 
 def delivered_peak_torque(parameters: ActuatorParameters, side: JointSide) -> float:

@@ -10,10 +10,10 @@ of the contact engine under T and -T::
 
 The stiffness over angle is (mean u/u)^p, its mean set to 1. Where the backlash of a drawn gearbox
 varies by more than it winds up, u is kept to so much of its mean that the harmonics of that stay
-above zero. The torque that holds the motor under
-the loads T and -T then varies over angle as dPi/dphi does in the contact engine; n times that is
-the torque ripple at the output. The loaded angle error itself is that of the mean load; mean
-windup, stiffening and backlash are those of the loaded curve.
+above zero. The torque that holds the motor under the loads T and -T then varies over angle as
+dPi/dphi does in the contact engine; n times that is the torque ripple at the output. The loaded
+angle error itself is that of the mean load; mean windup, stiffening and backlash are those of the
+loaded curve.
 """
 
 from __future__ import annotations

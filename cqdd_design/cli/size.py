@@ -110,7 +110,7 @@ def size(
         typer.Option(
             "--quick",
             help="The screen by closed forms alone: no verdict, and torques that are left out are "
-            "9 N*m by the ratio, 90 N*m at most, and 0.38 of that.",
+            "9 N*m times the ratio, 90 N*m at most, and 0.38 of that.",
         ),
     ] = False,
     pick: Annotated[

@@ -194,7 +194,7 @@ def size(
         What is made small; losses for efficiency.
     quick : bool
         The screen by closed forms alone: seconds less, and no verdict. Torques that are left out
-        are 9 N m by the ratio, 90 N m at most, and 0.38 of that.
+        are 9 N m times the ratio, 90 N m at most, and 0.38 of that.
     pick : {"b", "c", "d"}, optional
         Take this alternative; it is judged, and taken whatever the verdict is.
     out : path, optional

@@ -168,6 +168,22 @@ def test_threads_in_plastic_become_holes_of_inserts_that_leave_a_wall(every):
     assert "it is too short" in str(ThreadedHoles(2e-3, 1e-3, 3, 4e-3, None))
 
 
+def test_it_is_said_which_threads_are_without_an_insert_among_others(machine):
+    """An audit asked which two of eight: those whose wall the slot of a cable or a lead thins."""
+    housing = next(part for part in machine.parts if part.name == "housing")
+    bare = [one for one in with_inserts(housing, 1.2e-3)[1] if one.insert is None]
+    (some,) = (one for one in bare if one.angles)
+    assert len(some.angles) == some.count
+    places = {
+        round(math.degrees(math.atan2(*hole.centre[::-1])) % 360.0, 2)
+        for layer in housing.shape.layers
+        for hole in layer.shape.holes
+        if isinstance(hole, Circle)
+    }
+    assert set(some.angles) <= places
+    assert f"at {' and '.join(f'{one:g}' for one in some.angles)} deg: no insert" in str(some)
+
+
 def test_walls_of_plastic_are_judged_by_what_can_be_printed(machine):
     (wall,) = (one for one in retention_lines(machine) if one.id == "RETENTION-WALL")
     assert wall.limit == pytest.approx(0.84)

@@ -7,6 +7,7 @@ is drawn, and a sentence says so.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, TypeGuard
 
@@ -37,6 +38,8 @@ class ThreadedHoles:
         Radius of the largest hole in their places that leaves a wall, m.
     insert : Insert or None
         None where none goes in.
+    angles : tuple of float
+        About the axis, deg, of those without one among others that have; empty otherwise.
     """
 
     thread: float
@@ -44,6 +47,7 @@ class ThreadedHoles:
     count: int
     room: float
     insert: Insert | None
+    angles: tuple[float, ...] = ()
 
     def __str__(self) -> str:
         """As a line of the README."""
@@ -54,6 +58,8 @@ class ThreadedHoles:
                 if insert_for(self.thread, self.depth)
                 else "it is too short"
             )
+            if self.angles:
+                what += f", at {' and '.join(f'{one:g}' for one in self.angles)} deg"
             return f"{what}: no insert goes in, {why}; drawn at its drill, to be tapped by hand"
         return f"{what}: {self.insert.name} in holes of {_MM * self.insert.hole:g} mm"
 
@@ -82,7 +88,12 @@ def with_inserts(part: Part, least_wall: float) -> tuple[Part, tuple[ThreadedHol
         for depth, insert in sorted(kinds, key=lambda one: (one[0], one[1] is None)):
             places = [k for k, one in fitting.items() if (depths[k], one) == (depth, insert)]
             room = min(rooms[place] for place in places) - least_wall
-            found.append(ThreadedHoles(thread, depth, len(places), room, insert))
+            mixed = sum(one == depth for one, _ in kinds) > 1
+            bare = places if mixed and insert is None else []
+            angles = tuple(
+                sorted(round(math.degrees(math.atan2(y, x)) % 360.0, 2) for x, y in bare)
+            )
+            found.append(ThreadedHoles(thread, depth, len(places), room, insert, angles))
             if insert is not None:
                 bores.update({place: 0.5 * insert.hole for place in places})
 
