@@ -6,10 +6,11 @@ smaller ring that they take for lighter is held against both.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 from cqdd_design.errors import InfeasibleError
+from cqdd_design.results import Check
 from cqdd_design.sizing.agreement import settled
 from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.looks import closer_look
@@ -17,6 +18,8 @@ from cqdd_design.sizing.result import Cost
 from cqdd_design.sizing.search import Search
 from cqdd_design.sizing.spaces import Found, Space
 
+_MOTOR = {"peak_torque": "MOTOR-PEAK", "continuous_torque": "MOTOR-CONTINUOUS"}
+"""Requirements that a motor has to meet, and the lines that say what it does."""
 _MORE, _TWICE, _LESS_ROOM = 1.1, 2.0, 0.95
 
 
@@ -42,6 +45,17 @@ def costs(hunt: Hunt, found: Found) -> tuple[Cost, ...]:
     ring = _LESS_ROOM * found.ring
     less = _in_smaller_ring(near, found, space._replace(ring_limit=ring))
     return (*more, Cost("outer_diameter", "a ring 5 % smaller", ring, less))
+
+
+def with_motor(told: tuple[Cost, ...], lines: Iterable[Check]) -> tuple[Cost, ...]:
+    """Costs, marked where more is asked than the motor gives by lines of the design's verdict."""
+    most = {line.id: line.value for line in lines if line.id in _MOTOR.values()}
+
+    def beyond(one: Cost) -> bool:
+        value = most.get(_MOTOR.get(one.key, ""))
+        return value is not None and value < one.asked
+
+    return tuple(replace(one, beyond_motor=beyond(one)) for one in told)
 
 
 def _more_mass(

@@ -120,22 +120,27 @@ class Cost:
     mass : float or None
         Of the parts that the search counts, kg more than those of the design; None where nothing
         near it bears that.
+    beyond_motor : bool
+        Whether that is more than the design's motor gives.
     """
 
     key: str
     words: str
     asked: float
     mass: float | None
+    beyond_motor: bool = False
 
     @property
     def told(self) -> str:
         """In words."""
         more = "not in this space" if self.mass is None else f"{1e3 * self.mass:+.0f} g"
+        if self.beyond_motor:
+            more = "not with this motor"
         return f"{self.words} {more}"
 
     def to_dict(self) -> dict[str, object]:
         """Return the JSON form."""
-        more = None if self.mass is None else 1e3 * self.mass
+        more = None if self.mass is None or self.beyond_motor else 1e3 * self.mass
         return {"key": self.key, "change": self.words, "mass_g": more}
 
 

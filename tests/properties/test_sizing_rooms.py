@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 
@@ -11,10 +12,11 @@ from cqdd_design.catalog.motors import find_motor
 from cqdd_design.design import requirements_from_mapping
 from cqdd_design.geometry.scale import largest_ring, millimetre_unit, smallest_ring
 from cqdd_design.sizing.agreement import agreed
-from cqdd_design.sizing.costs import costs
+from cqdd_design.sizing.costs import costs, with_motor
 from cqdd_design.sizing.frame import USUAL_FIT, search_frame
 from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.kinds import lightest, ranked
+from cqdd_design.sizing.result import Cost
 from cqdd_design.sizing.shafts import weak_lines
 from cqdd_design.sizing.size import size
 from cqdd_design.sizing.spaces import MATERIALS, Space
@@ -116,6 +118,24 @@ def test_no_pin_circle_is_wider_than_a_carrier_bearing_allows(found):
     assert 0.85 * usual < near.sized.design.reducer.output_pins.circle_radius <= 0.95 * usual
     # With less lever pins are pushed more, and discs bear it.
     assert near.sized.objective.score >= 0.995 * found.sized.objective.score
+
+
+def test_more_than_a_motor_gives_costs_no_grams():
+    """As a report said: 10 % more continuous torque + 0 g, of a motor that holds 3 % more."""
+    told = (
+        Cost("peak_torque", "10 % more peak torque", 55.0, 4e-3),
+        Cost("continuous_torque", "10 % more continuous torque", 6.6, 0.0),
+        Cost("life", "twice the life", 7.2e6, 1e-3),
+    )
+    lines = [
+        SimpleNamespace(id="MOTOR-PEAK", value=56.0),
+        SimpleNamespace(id="MOTOR-CONTINUOUS", value=6.2),
+    ]
+    peak, lasting, life = with_motor(told, lines)
+    assert peak.told == "10 % more peak torque +4 g"
+    assert lasting.told == "10 % more continuous torque not with this motor"
+    assert lasting.to_dict()["mass_g"] is None
+    assert life == told[2]
 
 
 @pytest.mark.deep
