@@ -34,13 +34,14 @@ def verdict(judged: Verdict, costs: Sequence[str]) -> Values:
     closest = () if judged.meets == "no" else limits
     sizes = ", ".join(line.title[0].lower() + line.title[1:] for line in judged.filled)
     margin = significant(least.margin, 3)
+    apart = ", apart from sizes at their limit" if sizes and least not in judged.filled else ""
     return {
         "status": status,
         "badge": badge,
         "headline": f"{judged.sentence}.",
         "detail": f"Judged at {with_unit(asked.peak_torque, 'N*m')} peak and "
         f"{with_unit(asked.continuous_torque, 'N*m')} continuous torque. The least margin is "
-        f"{margin}, in “{least.title[0].lower()}{least.title[1:]}”.",
+        f"{margin}, in “{least.title[0].lower()}{least.title[1:]}”{apart}.",
         "figures": tuple(_figure(one) for one in judged.headline),
         "rows": tuple(check_row(line) for line in limits if line.status != "pass"),
         "closest": tuple(check_row(line) for line in closest if line.status == "pass"),
