@@ -30,7 +30,7 @@ def head_facts(results: ReportInput, least_margin: str) -> tuple[tuple[str, str,
             f"{reducer.disc_count} {TIMES} {millimetres(reducer.disc_thickness, 4)}",
             reducer.disc_material,
         ),
-        ("Least margin", least_margin, "1 is on the limit; sizes apart"),
+        ("Least margin", least_margin, "1 is on the limit"),
     ]
     if bodies is not None:
         inertia = bodies.inertia
