@@ -95,6 +95,14 @@ def ordered_as(row: Bearing) -> str:
     return plain.replace(" on ", " with inner ring ").replace("SKF * ", "SKF ")
 
 
+def bought_of(part: Part) -> str:
+    """Material as a bill says it: of what is bought without the standard that a row is named by.
+
+    Screws of ISO 4762 are counted with the steel that the catalogue has of ISO 7379's.
+    """
+    return part.material if part.source == "make" else part.material.partition(" (")[0]
+
+
 def ordered(designation: str) -> str:
     """What to order by a name of the catalogue, or how a part is made."""
     bearing = bearings().get(designation)

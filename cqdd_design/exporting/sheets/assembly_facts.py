@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from cqdd_design.catalog.adhesives import NUT_LOCKING
 from cqdd_design.catalog.tightening import torque_words
 from cqdd_design.exporting.bill.consumables import consumables
-from cqdd_design.exporting.bill.substitutes import ordered
+from cqdd_design.exporting.bill.substitutes import bought_of, ordered
 from cqdd_design.exporting.sheets.wording import joint_note
 from cqdd_design.machine.centring import centring
 from cqdd_design.machine.grease import grease_fill
@@ -58,7 +58,7 @@ class AssemblyFacts:
                 str(part.count),
                 part.name,
                 ordered(part.designation),
-                part.material,
+                bought_of(part),
                 f"{1e3 * part.mass:.4g}",
             )
             for part in self.parts

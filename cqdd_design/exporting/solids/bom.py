@@ -111,7 +111,7 @@ def bill_of_materials(machine: Machine, parts: Sequence[Part]) -> tuple[BomRow, 
     """
     from cqdd_design.exporting.bill.consumables import consumables
     from cqdd_design.exporting.bill.fitting import fitting_notes
-    from cqdd_design.exporting.bill.substitutes import ordered, substitutes
+    from cqdd_design.exporting.bill.substitutes import bought_of, ordered, substitutes
 
     named = {part.name: part for part in parts}
     notes = fitting_notes(machine)
@@ -129,6 +129,7 @@ def bill_of_materials(machine: Machine, parts: Sequence[Part]) -> tuple[BomRow, 
         rows.append(
             replace(
                 row,
+                material=bought_of(part),
                 designation=machine.motor.name if row.part == _STATOR else ordered(row.designation),
                 fitting=notes.get(row.part, ""),
                 substitutes="; ".join(substitutes(machine, part)),
