@@ -47,7 +47,7 @@ def costs(hunt: Hunt, found: Found) -> tuple[Cost, ...]:
     return (*more, Cost("outer_diameter", "a ring 5 % smaller", ring, less))
 
 
-def with_motor(told: tuple[Cost, ...], lines: Iterable[Check]) -> tuple[Cost, ...]:
+def held_to_motor(told: tuple[Cost, ...], lines: Iterable[Check]) -> tuple[Cost, ...]:
     """Costs, marked where more is asked than the motor gives by lines of the design's verdict."""
     most = {line.id: line.value for line in lines if line.id in _MOTOR.values()}
 

@@ -17,7 +17,7 @@ from cqdd_design.design import Requirements
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.sizing.able import CONTINUOUS, PEAK, first_guess
 from cqdd_design.sizing.bearable import or_weaker
-from cqdd_design.sizing.costs import costs, with_motor
+from cqdd_design.sizing.costs import costs
 from cqdd_design.sizing.eased import LITTLE, MUCH, eased, given
 from cqdd_design.sizing.frame import Fit, Goal
 from cqdd_design.sizing.hunt import Hunt, Progress
@@ -313,7 +313,6 @@ def _verified(
     hunt: Hunt, sizing: SizingResult, verdict: Verdict, asked: Requirements
 ) -> VerifiedDesign:
     added = hunt.requirements.model_fields_set - asked.model_fields_set
-    sizing = replace(sizing, costs=with_motor(sizing.costs, verdict.lines))
     return VerifiedDesign(sizing, verdict, asked.derived | added)
 
 

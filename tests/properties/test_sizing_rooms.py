@@ -12,7 +12,7 @@ from cqdd_design.catalog.motors import find_motor
 from cqdd_design.design import requirements_from_mapping
 from cqdd_design.geometry.scale import largest_ring, millimetre_unit, smallest_ring
 from cqdd_design.sizing.agreement import agreed
-from cqdd_design.sizing.costs import costs, with_motor
+from cqdd_design.sizing.costs import costs, held_to_motor
 from cqdd_design.sizing.frame import USUAL_FIT, search_frame
 from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.kinds import lightest, ranked
@@ -131,7 +131,7 @@ def test_more_than_a_motor_gives_costs_no_grams():
         SimpleNamespace(id="MOTOR-PEAK", value=56.0),
         SimpleNamespace(id="MOTOR-CONTINUOUS", value=6.2),
     ]
-    peak, lasting, life = with_motor(told, lines)
+    peak, lasting, life = held_to_motor(told, lines)
     assert peak.told == "10 % more peak torque +4 g"
     assert lasting.told == "10 % more continuous torque not with this motor"
     assert lasting.to_dict()["mass_g"] is None
