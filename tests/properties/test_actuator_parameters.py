@@ -236,6 +236,21 @@ def test_friction_at_the_peak_torque_is_that_of_the_loss_model(name: str) -> Non
     )
 
 
+@given(st.floats(0.0, 30.0), st.floats(0.0, 2.0), st.floats(0.5, 100.0), st.floats(0.0, 5.0))
+@settings(max_examples=examples(50))
+def test_what_the_motor_gives_comes_out_as_it_went_in(
+    knee: float, growth: float, torque: float, speed: float
+) -> None:
+    one = built()
+    friction = replace(one.friction, load_knee=knee, load_growth=growth)
+    rubbing = replace(one, friction=friction)
+    shaft = operating.motor_torque(rubbing, torque, speed)
+    assert float(operating.output_torque(rubbing, shaft, speed)) == pytest.approx(torque)
+    # Friction takes of what drives, and helps to hold what is driven.
+    assert float(shaft) > torque / abs(one.gear.ratio)
+    assert float(operating.motor_torque(rubbing, -torque, speed)) > -torque / abs(one.gear.ratio)
+
+
 @pytest.mark.parametrize("name", ["plain-10", "knee-8"])
 def test_the_peak_torque_is_what_losses_at_rest_leave_of_the_motor(name: str) -> None:
     """Of the driver's current what the loss model takes at rest, found on its own way."""

@@ -9,13 +9,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from actuator_machines import COLD, NO_FRICTION, machine
+from actuator_machines import COLD, NO_FRICTION, machine, smooth
 from actuator_twin import in_plain_numpy
 from examples import examples
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from cqdd_design.actuator.columns import TRACES
+from cqdd_design.actuator.operating import output_torque
 from cqdd_design.actuator.packing import largest_step
 from cqdd_design.actuator.parameters import (
     FrictionParameters,
@@ -96,15 +97,43 @@ def test_energy_is_kept_over_ten_seconds(name: str, friction: str) -> None:
 @pytest.mark.parametrize("name", list(SCENES))
 def test_kernel_and_plain_twin_agree(name: str, friction: str) -> None:
     scene = replace(SCENES[name], friction=friction)
-    fast = simulate(machine(), scene, 0.008, 2e-5)
+    # Nearly all that is carried is above the knee.
+    own = machine(friction=replace(machine().friction, load_knee=0.1, load_growth=0.4))
+    fast = simulate(own, scene, 0.008, 2e-5)
     with in_plain_numpy():
-        slow = simulate(machine(), scene, 0.008, 2e-5)
+        slow = simulate(own, scene, 0.008, 2e-5)
     assert slow.ledger.residual_share[0] < 1e-12
     scale = {"output_torque": 1.0, "motor_friction": 1.0, "output_friction": 1.0}
     for trace in TRACES:
         ours, theirs = getattr(fast, trace), getattr(slow, trace)
         size = max(float(np.abs(theirs).max()), scale.get(trace, 1e-4))
         np.testing.assert_allclose(ours, theirs, atol=1e-6 * size, rtol=0, err_msg=trace)
+
+
+@pytest.mark.parametrize("sense", [1.0, -1.0], ids=["driving", "driven"])
+def test_friction_beyond_the_knee_is_that_of_the_operating_points(sense: float) -> None:
+    """Slow steady motion under a current, on a law of its own in plain numpy."""
+    friction = FrictionParameters(0.0, 0.0, 0.0, 0.0, 0.0, 5.0, 0.3, 0.25)
+    speed, torques = 2.0, []
+    for knee, growth in ((0.0, 0.0), (8.0, 0.5)):
+        own = smooth(friction=replace(friction, load_knee=knee, load_growth=growth))
+        way = sense * math.copysign(1.0, own.gear.ratio)
+        current = 20.0 / (abs(own.gear.ratio) * own.motor.torque_constant)
+        # Brought up slowly: a jump would leave the motor swinging on the gearbox's stiffness.
+        slowly = Sampled(np.array([0.0, 1.0]), np.array([0.0, way * current]))
+        load, start = Load.driven(Constant(speed)), Start(output_speed=speed)
+        run = simulate(own, Scenario(Command("current", slowly), load, start), 2.0, 5e-5, every=20)
+        found = float(run.output_torque[0][run.time > 1.5].mean())
+        # What comes in as 20 N m is G (1 + mu), and mu/2 more for each N m above the knee; driven,
+        # G (1 - mu) is left.
+        share = sense * (0.3 if sense > 0.0 else 0.25)
+        wanted = (20.0 + share * growth * knee) / (1.0 + share * (1.0 + growth))
+        assert found == pytest.approx(sense * wanted, rel=2e-3)
+        torques.append(wanted)
+        if sense > 0.0:
+            told = output_torque(own, 20.0 / abs(own.gear.ratio), speed)
+            assert float(told) == pytest.approx(wanted)
+    assert (torques[1] < torques[0]) == (sense > 0.0)
 
 
 CONTACTS = {
