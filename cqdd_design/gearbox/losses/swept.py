@@ -68,14 +68,17 @@ def loss_model(
         return contact_sweep(model, torque, states=states, friction=friction)
 
     def swept(shares: Sequence[float], speed: float) -> dict[float, list[ContactSweep]]:
-        """In both senses, by share, but for small ones without an equilibrium."""
-        found = {}
+        """In both senses, by share, but for small ones without an equilibrium beside others."""
+        found, unsolved = {}, None
         for share in shares:
             try:
                 found[share] = [solve(share, sense, speed) for sense in SENSES]
-            except ContactError:
+            except ContactError as error:
                 if share > _SPARED:
                     raise
+                unsolved = error
+        if unsolved is not None and not found:
+            raise unsolved
         return found
 
     def lossy(solved: dict[float, list[ContactSweep]]) -> LossModel:
