@@ -9,6 +9,9 @@ from pathlib import Path
 import pytest
 
 from cqdd_design.design import load_design
+from cqdd_design.errors import ContactError
+from cqdd_design.gearbox.contact import sweep
+from cqdd_design.gearbox.losses import loss_model
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.lasting import lasting_speed, lasting_torque
 from cqdd_design.machine.temperatures import heat_checks, machine_temperatures
@@ -104,3 +107,18 @@ def hot(machines: dict[str, Machine]) -> Verdict:
     """The paper's actuator under a continuous torque that it does not hold at its input speed."""
     changes = {"requirements.peak_torque": 20.0, "requirements.continuous_torque": 9.0}
     return judge(machines["cqdd"].changed(changes), samples=0)
+
+
+def test_a_gearbox_without_an_equilibrium_at_any_torque_says_so(
+    machines: dict[str, Machine], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Small torques are left out where others are solved; without others that is an error."""
+
+    def unsolved(*args: object, **kwargs: object) -> None:
+        raise ContactError("no equilibrium.")
+
+    machine = machines["cqdd"]
+    peak = machine.design.requirements.peak_torque
+    monkeypatch.setattr(sweep, "contact_sweep", unsolved)
+    with pytest.raises(ContactError, match=r"no equilibrium\."):
+        loss_model(machine.contact, machine.friction, peak, [1e-3])
