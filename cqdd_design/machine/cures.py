@@ -67,11 +67,23 @@ def torques_that_hold(
                 tried[at] = {}
         return tried[at].get(check_id, 0.0)
 
-    return {check_id: _most(partial(margin, check_id), tried, near) for check_id in told}
+    return {check_id: most_that_holds(partial(margin, check_id), tried, near) for check_id in told}
 
 
-def _most(margin: Callable[[float], float], tried: Iterable[float], near: float) -> float:
-    """The most torque whose margin is 1, starting from what has been tried."""
+def most_that_holds(
+    margin: Callable[[float], float], tried: Iterable[float], near: float = _NEAR
+) -> float:
+    """The most of a torque, or of what acts like one, whose margin is 1; 0 where none was found.
+
+    Parameters
+    ----------
+    margin : callable
+        At a value; 0 where it does not hold and nothing says by how much.
+    tried : iterable of float
+        Where to start from: values whose margins are known, or quickly told again.
+    near : float
+        Of the limit, how much may be left of it.
+    """
     known = {at: margin(at) for at in tuple(tried)}
     in_a_row, few = 0, _LOOKS if near < ROUGHLY else _FEW_LOOKS
     for look in range(_LOOKS):

@@ -226,8 +226,7 @@ class MachineTemperatures:
     @cached_property
     def heat_share(self) -> float:
         """Greatest rise above the air of a part, over the most that it bears."""
-        air = self.network.ambient
-        return max((one.temperature - air) / max(one.most - air, 1e-9) for one in _parts(self))
+        return max(one.share(self.network.ambient) for one in _parts(self))
 
     @cached_property
     def tightest(self) -> Tightness:

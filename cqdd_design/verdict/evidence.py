@@ -27,6 +27,8 @@ from cqdd_design.verdict.drawn import Drawn, drawn_gearboxes
 from cqdd_design.verdict.motor import lasting_speed_of
 
 Progress = Callable[[str], None]
+_HeatTold = tuple[MachineTemperatures | None, tuple[Check, ...], tuple[str, ...]]
+"""Temperatures with their checks, and why there are none."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +105,7 @@ def gather(
         strained = beside.submit(judged_or_told, machine)
         heat = beside.submit(_heat, machine)
         motor = beside.submit(_actuator, machine, specimen)
-        held = beside.submit(lambda: _lasting(machine, heat.result()[1], motor.result()[0]))
+        held = beside.submit(lambda: _lasting(machine, heat.result(), motor.result()[0]))
         progress("drawing toleranced gearboxes, and judging heat and motor")
         try:
             drawn, undrawn = _drawn(machine, samples, sensitivity)
@@ -139,9 +141,7 @@ def _actuator(machine: Machine, specimen: Specimen) -> tuple[ActuatorParameters 
         return None, f"the actuator cannot be simulated: {error.message}"
 
 
-def _heat(
-    machine: Machine,
-) -> tuple[MachineTemperatures | None, tuple[Check, ...], tuple[str, ...]]:
+def _heat(machine: Machine) -> _HeatTold:
     """Temperatures with their checks, and the cooling that is enough where parts get too warm."""
     warm, checks, told = judged_temperatures(machine)
     if warm is None or machine.stiff or checks[0].status != "fail":
@@ -152,25 +152,29 @@ def _heat(
 
 
 def _lasting(
-    machine: Machine, heat_checks: tuple[Check, ...], actuator: ActuatorParameters | None
+    machine: Machine, heat: _HeatTold, actuator: ActuatorParameters | None
 ) -> float | None:
     """The torque that all parts stand for ever, N m, as far as winding and drive hold it."""
-    if machine.stiff or actuator is None or not heat_checks:
+    warm, checks, _ = heat
+    if machine.stiff or actuator is None or warm is None:
         return None
-    asked = machine.design.requirements
-    rise, clearance = (line.known and line.status == "pass" for line in heat_checks)
+    asked, told = machine.design.requirements, {}
+    rise, clearance = (line.known and line.status == "pass" for line in checks)
     if asked.load_cases:
-        speed, holds = lasting_speed_of(asked), 0.0
+        speed = lasting_speed_of(asked)
         most = float(held_torque(actuator, speed / asked.ratio)[0])
     else:
         speed, most = asked.held_speed, demands(actuator, asked)[1].found.most
-        holds = asked.continuous_torque if rise else 0.0
-    if most <= holds or most <= 0.0:
+        if rise and most <= asked.continuous_torque:
+            return most
+        if not warm.cold:
+            told = {asked.continuous_torque: 1.0 / warm.heat_share}
+    if most <= 0.0:
         return most
     # Parts that are cool and press on each other do so for other reasons than a torque.
     ways = (True,) if clearance else (False,) if rise else (True, False)
     try:
-        found = (lasting_torque(machine, most, speed, holds, free=free) for free in ways)
+        found = (lasting_torque(machine, most, speed, told, free=free) for free in ways)
         return next((torque for torque in found if torque > 0.0), 0.0)
     except (ContactError, DesignError, GeometryError):
         return None

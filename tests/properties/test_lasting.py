@@ -55,8 +55,10 @@ def test_a_torque_that_lasts_is_the_greatest(key: str, machines: dict[str, Machi
     assert cool(machine, pressing)
     assert not cool(machine, NEAR * pressing)
     assert (pressing > 1.5 * found) == (key == "cqdd")
-    # One that is known to hold leads to the same, and one that all stand is told as it is.
-    assert lasting_torque(machine, 9.0, speed, 0.8 * found) == pytest.approx(found, rel=0.01)
+    # Where a margin is known the same is found, and one that all stand is told as it is.
+    some = machine.under(continuous=0.8 * found)
+    known = {0.8 * found: 1.0 / machine_temperatures(some).heat_share}
+    assert lasting_torque(machine, 9.0, speed, known) == pytest.approx(found, rel=0.02)
     assert lasting_torque(machine, 0.9 * found, speed) == 0.9 * found
 
 

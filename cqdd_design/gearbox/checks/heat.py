@@ -22,6 +22,10 @@ class WarmPart(NamedTuple):
     temperature: float
     most: float
 
+    def share(self, ambient: float) -> float:
+        """Of the rise above the air (deg C) that it bears."""
+        return (self.temperature - ambient) / max(self.most - ambient, 1e-9)
+
 
 class Tightness(NamedTuple):
     """Overlap that warmth adds in one state, m, and the state in words."""
@@ -40,11 +44,7 @@ def rise_check(parts: tuple[WarmPart, ...], ambient: float, heat: float, as_draw
     ambient, heat, as_drawn : float
         deg C; all that parts lose at these temperatures, and before they are warm, W.
     """
-
-    def used(part: WarmPart) -> float:
-        return (part.temperature - ambient) / max(part.most - ambient, 1e-9)
-
-    worst = max(parts, key=used)
+    worst = max(parts, key=lambda part: part.share(ambient))
     told = ", ".join(f"{one.name} {one.temperature:.0f} of {one.most:g}" for one in parts)
     burnt = ""
     if max(one.temperature for one in parts) > BURNT:
