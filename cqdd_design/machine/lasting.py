@@ -12,12 +12,9 @@ from types import MappingProxyType
 
 from cqdd_design.errors import CatalogError, DesignError
 from cqdd_design.gearbox.checks.allowables import BINDING_OVERLAP
-from cqdd_design.machine.cures import most_that_holds
+from cqdd_design.machine.cures import ROUGHLY, most_that_holds
 from cqdd_design.machine.machine import Machine
 from cqdd_design.machine.temperatures import machine_temperatures
-
-_NEAR = 1e-2
-"""Of the rise that parts bear, how much may be left of it."""
 
 
 def lasting_torque(
@@ -44,7 +41,7 @@ def lasting_torque(
     Returns
     -------
     float
-        To a per cent of the rise, from below; 0 where none was found.
+        From below, to half a per cent of the rise; 0 where none was found.
 
     Raises
     ------
@@ -59,7 +56,7 @@ def lasting_torque(
             known[torque] = _margin(turning, torque, free=free)
         return known[torque]
 
-    return most if margin(most) >= 1.0 else most_that_holds(margin, tuple(known), _NEAR)
+    return most if margin(most) >= 1.0 else most_that_holds(margin, tuple(known), ROUGHLY)
 
 
 def lasting_speed(machine: Machine, most: float, *, free: bool = True) -> float:
@@ -75,7 +72,7 @@ def lasting_speed(machine: Machine, most: float, *, free: bool = True) -> float:
             known[speed] = _margin(_turning(machine, speed), torque, free=free)
         return known[speed]
 
-    return most if margin(most) >= 1.0 else most_that_holds(margin, tuple(known), _NEAR)
+    return most if margin(most) >= 1.0 else most_that_holds(margin, tuple(known), ROUGHLY)
 
 
 def _turning(machine: Machine, speed: float) -> Machine:

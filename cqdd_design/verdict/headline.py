@@ -15,8 +15,8 @@ from cqdd_design.machine.carrying import carried_torque, carried_up_to
 from cqdd_design.results import Check, Status
 from cqdd_design.terms import life_text
 from cqdd_design.verdict.evidence import Evidence
+from cqdd_design.verdict.motor import ALL_PARTS, lasting_speed_of
 from cqdd_design.verdict.motor import MODEL as OPERATING
-from cqdd_design.verdict.motor import lasting_speed_of
 from cqdd_design.verdict.reached import PEAK_LINES, standing_torque
 
 _RPM = 30.0 / math.pi
@@ -121,7 +121,7 @@ def _continuous(evidence: Evidence, by_id: dict[str, Check]) -> Figure:
         value = float(held_torque(evidence.actuator, speed / asked.ratio)[0])
         alone = "" if value > 0.0 else ": friction alone heats the winding too much there"
         if lasting is not None and lasting < value:
-            value, known = lasting, f"{OPERATING}, as far as all parts stand it"
+            value, known = lasting, ALL_PARTS
             alone = "" if value > 0.0 else ": drag alone makes parts too warm or press there"
     basis = (
         f"{known}, for ever at {whose}{alone}; not asked for, the duty's heat decides, see the "

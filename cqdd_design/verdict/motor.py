@@ -34,6 +34,7 @@ from cqdd_design.results import Check
 from cqdd_design.solids.motor_rules import undrawn_sizes
 
 MODEL = "operating points of the simulated actuator"
+ALL_PARTS = f"{MODEL}, as far as all parts stand it"
 _RPM = 30.0 / math.pi
 _HALVINGS = 50
 _RAISED = {
@@ -165,6 +166,7 @@ def _continuous(
     if most < asked.continuous_torque:
         slower = _slower(actuator, machine, parts=lasting is not None)
     winding = f", {alone:.4g} N*m by winding and drive alone" if most < alone else ""
+    model = ALL_PARTS if most < alone else MODEL
     # What friction alone overheats holds nothing while it turns. Friction is put in numbers at the
     # torque that is asked for: at a lower one a little more may be held.
     lower = f"{_LOWER_CONTINUOUS} {rounded_down(most):g} N*m, " if most > 0.0 else ""
@@ -175,7 +177,7 @@ def _continuous(
         f"{most:.4g} N*m at {asked.held_speed * _RPM:.0f} rpm of the motor{winding}; {still:.4g} "
         "N*m standing still",
         f"{lower}{slower}lower friction, or cool it (drive.thermal_resistance states how well)",
-        model=MODEL,
+        model=model,
     )
 
 

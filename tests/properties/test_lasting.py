@@ -80,6 +80,8 @@ def test_the_verdict_promises_no_torque_that_its_heat_forbids(hot: Verdict) -> N
     line = next(one for one in hot.lines if one.id == "MOTOR-CONTINUOUS")
     assert line.value is not None
     assert hot.headline[1].value == line.value
+    assert hot.headline[1].basis == line.basis
+    assert line.basis.endswith("as far as all parts stand it")
     rpm = hot.evidence.machine.design.requirements.held_speed * RPM
     assert hot.headline[1].title == f"continuous torque at {rpm:.0f} rpm"
     alone = re.search(r"([\d.]+) N\*m by winding and drive alone", line.substituted)
