@@ -1,4 +1,4 @@
-"""How warm a machine's parts get at a duty, and what that does to its clearances."""
+"""How warm a machine's parts get at a duty, and the checks of that."""
 
 from __future__ import annotations
 
@@ -29,7 +29,6 @@ from cqdd_design.gearbox.heat.expansion import (
     part_materials,
 )
 from cqdd_design.gearbox.heat.network import ThermalNetwork
-from cqdd_design.gearbox.precision.backlash import Backlash, backlash
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.limits import rounded_up
 from cqdd_design.machine.cooling import cooled_network, two_nodes
@@ -44,9 +43,9 @@ from cqdd_design.machine.settling import (
     settle,
     within_reach,
 )
+from cqdd_design.machine.warm_clearance import WarmClearance, warm_clearance
 from cqdd_design.results import Check
 
-_GAP_ANGLES = 41
 _TIMES = 48
 _LEAST_TIME, _SETTLED = 5.0, 6.0
 """First time of a history, s, and its last over the slowest time constant."""
@@ -60,45 +59,6 @@ _LOOKS, _FEW_LOOKS = 6, 3
 
 _NEAR_ENOUGH = 2e-2
 """Of a limit of temperature, how much may be left of it where cooling is looked for."""
-
-
-@dataclass(frozen=True, eq=False)
-class WarmClearance:
-    """Rigid parts at some temperatures.
-
-    Attributes
-    ----------
-    temperatures : PartTemperatures
-    free : Backlash
-    least_gap : float
-        In the nominal pose, m; negative where parts have to move out of each other's way.
-    """
-
-    temperatures: PartTemperatures
-    free: Backlash
-    least_gap: float
-
-    @property
-    def overlap(self) -> float:
-        """That no motion removes, m; 0 where parts are free."""
-        return float(self.free.overlap.max()) if self.free.preloaded else 0.0
-
-
-def warm_clearance(machine: Machine, temperatures: PartTemperatures) -> WarmClearance:
-    """Backlash, gap and overlap of rigid parts at some temperatures.
-
-    Raises
-    ------
-    DesignError
-        When the thermal expansion of a part is not known.
-    """
-    from cqdd_design.gearbox.contact.states import nominal_states
-    from cqdd_design.gearbox.contact.sweep import perfect_angles
-
-    model = machine.at(temperatures).contact
-    states = nominal_states(model, perfect_angles(model, _GAP_ANGLES))
-    found = backlash(model, states=states)
-    return WarmClearance(temperatures, found, float(states.gaps.min()))
 
 
 @dataclass(frozen=True, eq=False)
@@ -221,7 +181,7 @@ class MachineTemperatures:
 
         Those that press lose more and get warmer still, which says nothing of what they lacked.
         """
-        return max(one.overlap for one in _added_overlaps(self.undisturbed))
+        return self.undisturbed.tightest.overlap
 
     @cached_property
     def heat_share(self) -> float:
@@ -423,7 +383,7 @@ def _more(found: MachineTemperatures, key: str, now: float, lacks: float) -> flo
             settled = machine_temperatures(found.machine.changed({key: now + more}))
         except DesignError:
             return None
-        if max(one.overlap for one in _added_overlaps(settled)) <= 1e-6 * BINDING_OVERLAP:
+        if settled.tightest.overlap <= 1e-6 * BINDING_OVERLAP:
             return more
     return None
 
