@@ -69,6 +69,10 @@ NUT_LOCKING = (
 )
 """How a nut without a tab washer is kept (Henkel, LOCTITE 243 technical data sheet)."""
 
+RING_COMPOUND = "LOCTITE 641"
+"""Round the ring, which wears and comes out again: of medium strength, for joints that are to be
+taken apart (Henkel, LOCTITE 641 technical data sheet). No torque is asked of it."""
+
 ROTOR_COMPOUND = RetainingCompound(
     name="LOCTITE 648",
     strength=25e6,

@@ -194,14 +194,25 @@ def axial_stacks(parts: Sequence[Part], layout: Layout) -> tuple[AxialStack, ...
     return tuple(found)
 
 
-def _shaft(named: Mapping[str, Part], layout: Layout) -> Iterator[Length]:
-    """From the housing's floor through ring, clamp, output bearing and plate, and back."""
-    support, housing, ring = layout.shaft.support, named["housing"], named["ring"]
-    yield _between(housing, "ledge of the ring", "shoulder of the shaft bearing")
+def ring_stack(parts: Sequence[Part]) -> AxialStack:
+    """The ring between its ledge in the housing and the clamp, which rests on the housing."""
+    named = {part.name: part for part in parts}
+    ring = named["ring"]
     thickness = ring.shape.top - ring.shape.bottom
-    limits = thickness_limits(ring.material, thickness)
-    yield Length("ring", "thickness", thickness, *limits, ring.material, "ring")
-    yield _between(named["ring clamp"], "face under the output bearing", "face on the ring")
+    thinnest, thickest = thickness_limits(ring.material, thickness)
+    lengths = (
+        _between(named["housing"], "face under the clamp", "ledge of the ring"),
+        _between(named["ring clamp"], "face on the ring", "face on the housing"),
+        Length("ring", "thickness", -thickness, -thickest, -thinnest, ring.material, "ring"),
+    )
+    return AxialStack("ring under its clamp", lengths)
+
+
+def _shaft(named: Mapping[str, Part], layout: Layout) -> Iterator[Length]:
+    """From the housing's floor through clamp, output bearing and plate, and back."""
+    support, housing = layout.shaft.support, named["housing"]
+    yield _between(housing, "face under the clamp", "shoulder of the shaft bearing")
+    yield _between(named["ring clamp"], "face under the output bearing", "face on the housing")
     yield _between(
         named["carrier plate"], "shoulder of the shaft bearing", "shoulder of the output bearing"
     )

@@ -63,11 +63,12 @@ def housing_body(layout: Layout, features: Sequence[Feature]) -> Stack:
 def ring_clamp(layout: Layout, features: Sequence[Feature]) -> Stack:
     """The plate between flange and cover that clamps the ring and carries the output bearing.
 
-    Its spigots centre it in the housing, and the cover on it.
+    Its spigots centre it in the housing, and the cover on it. It rests on the housing, and leaves
+    the ring its play.
     """
     housing, pack, carrier = layout.housing, layout.pack, layout.carrier
-    bottom, top = pack.top, carrier.bearing_bottom
-    relief = bottom + pack.relief
+    bottom, top = pack.top + pack.ring_play, carrier.bearing_bottom
+    relief = max(pack.top + pack.relief, bottom)
     rings = []
     for low, high in pairwise(sorted({bottom, relief, housing.face, housing.cover_bottom, top})):
         middle = 0.5 * (low + high)

@@ -60,9 +60,11 @@ class PackLayout:
     reach : float
         Radius that the orbiting lobes sweep.
     ledge_radius : float
-        Inner radius of the faces between which the ring is clamped.
+        Inner radius of the faces between which the ring lies.
     relief : float
         Height by which housing and clamp stand off the discs inside these faces.
+    ring_play : float
+        Of the ring between its ledge and the clamp, which rests on the housing.
     inner_radius : float
         Inner radius of housing and clamp beyond the relief; where they hold ring pins, they reach
         in over the discs.
@@ -84,6 +86,7 @@ class PackLayout:
     reach: float
     ledge_radius: float
     relief: float
+    ring_play: float
     inner_radius: float
     most_clamp_radius: float
     held_pins: HeldPins | None

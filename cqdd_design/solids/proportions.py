@@ -42,6 +42,7 @@ from cqdd_design.solids.motor_rules import (
 )
 from cqdd_design.solids.mounting import cover_thread, mounting_thread
 from cqdd_design.solids.registers import output_seal, shaft_seal, spigot_depth
+from cqdd_design.solids.ring_room import ring_play
 from cqdd_design.solids.selection import (
     ChosenBearing,
     OutputPin,
@@ -215,6 +216,7 @@ def _pack(design: Design, cam_bearing: Bearing, unit: float) -> PackLayout:
         reach=reach,
         ledge_radius=ledge,
         relief=relief,
+        ring_play=ring_play(reducer.ring_material, design.housing.material, reducer.pack_length),
         inner_radius=inner,
         most_clamp_radius=clamp,
         held_pins=held,

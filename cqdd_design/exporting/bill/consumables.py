@@ -6,13 +6,14 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from cqdd_design.catalog.adhesives import ROTOR_COMPOUND
+from cqdd_design.catalog.adhesives import RING_COMPOUND, ROTOR_COMPOUND
 from cqdd_design.catalog.fits import fit_limits
 from cqdd_design.catalog.printing import Insert, printed_materials
 from cqdd_design.errors import CatalogError
 from cqdd_design.exporting.bill.substitutes import other_lubricants
 from cqdd_design.exporting.printing.threads import with_inserts
 from cqdd_design.machine.grease import grease_fill
+from cqdd_design.machine.ring_seating import is_bonded
 from cqdd_design.solids.features import zones
 
 if TYPE_CHECKING:
@@ -130,6 +131,8 @@ def consumables(machine: Machine) -> tuple[Consumable, ...]:
                 ROTOR_COMPOUND.source,
             )
         )
+    if is_bonded(machine):
+        found.append(_round_the_ring(machine))
     fill = grease_fill(machine)
     found.append(
         Consumable(
@@ -142,6 +145,19 @@ def consumables(machine: Machine) -> tuple[Consumable, ...]:
         )
     )
     return tuple(found)
+
+
+def _round_the_ring(machine: Machine) -> Consumable:
+    pack = machine.layout.pack
+    wide = 2.0 * pack.ring_radius
+    seat = Bond("ring", wide, pack.top, _gap(zones.RING_SEAT, zones.RING_OUTSIDE, wide))
+    return Consumable(
+        "ring's compound",
+        RING_COMPOUND,
+        f"about {_ML * seat.volume:.2g} ml: round the ring in its seat; surfaces clean and dry",
+        "",
+        "Henkel, LOCTITE 641 technical data sheet: for joints that are to be taken apart",
+    )
 
 
 def _inserts(machine: Machine) -> list[Consumable]:

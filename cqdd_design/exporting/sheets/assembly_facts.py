@@ -13,6 +13,7 @@ from cqdd_design.exporting.sheets.wording import joint_note
 from cqdd_design.machine.centring import centring
 from cqdd_design.machine.grease import grease_fill
 from cqdd_design.machine.motor_standing import motor_standing
+from cqdd_design.machine.ring_seating import ring_seating
 from cqdd_design.machine.screws import tightened_screws
 from cqdd_design.machine.sealing import sealing
 from cqdd_design.machine.set_heights import set_heights
@@ -105,6 +106,7 @@ class AssemblyFacts:
                 if isinstance(feature, Joint) and feature.kind != "screwed":
                     said.append(f"{_capital(part.name)}: {joint_note(feature)}")
         said.append(self._grease())
+        said.append(ring_seating(self.machine))
         said.append(motor_standing(self.machine))
         said += set_heights(self.machine)
         said.append(self._nut())

@@ -16,6 +16,7 @@ from cqdd_design.solids.features.holes import (
 from cqdd_design.solids.features.kinds import Feature, Joint, TrueFace
 from cqdd_design.solids.features.making import (
     BEARING_FACE,
+    RING_FACE,
     clearance,
     fitted,
     indicator_band,
@@ -88,6 +89,8 @@ def housing_features(layout: Layout) -> tuple[Feature, ...]:
                  0.5 * support.bearing.outer_diameter, "up", bore,
                  fillet=support.bearing.largest_fillet, refers="A",
                  along=BEARING_FACE),
+        shoulder("face under the clamp", housing.face, pack.ring_radius, housing.flange_radius,
+                 "up", ring, refers="A", along=RING_FACE),
         tapped("threads of the cover's screws", thread, metric(thread), screw_circle(housing),
                mouth=pack.top, facing="up", depth=deep, room=deep),
         Counterbore("counterbores over these threads", thread_size_of(thread.diameter).medium,
@@ -219,7 +222,7 @@ def _ring_pin_seats(pack: PackLayout, mouth: float, *, downward: bool) -> tuple[
 def clamp_features(layout: Layout) -> tuple[Feature, ...]:
     """Of the plate between flange and cover."""
     housing, pack, output = layout.housing, layout.pack, layout.carrier.output.bearing
-    bottom, top = pack.top, layout.carrier.bearing_bottom
+    bottom, top = pack.top + pack.ring_play, layout.carrier.bearing_bottom
     lower = seat(
         "spigot in the housing", 2.0 * pack.ring_radius, bottom, housing.face, zones.SPIGOT,
         datum="A", lead_in=LEAD_IN,
@@ -235,15 +238,15 @@ def clamp_features(layout: Layout) -> tuple[Feature, ...]:
                   housing.cover_bottom, screw_circle(housing), refers="BA"),
         _mounting(housing, housing.face, housing.cover_bottom, refers="BA"),
         shoulder("face on the ring", bottom, max(pack.ledge_radius, housing.clamp_inner),
-                 pack.ring_radius, "down", None, datum="B", refers="A"),
+                 pack.ring_radius, "down", None, refers="A", along=RING_FACE),
         shoulder("face on the housing", housing.face, pack.ring_radius, housing.flange_radius,
-                 "down", lower, fillet=_SPIGOT_CORNER, refers="A", along=BEARING_FACE),
+                 "down", lower, fillet=_SPIGOT_CORNER, datum="B", refers="A"),
         shoulder("face under the cover", housing.cover_bottom, 0.5 * output.outer_diameter,
                  housing.flange_radius, "up", upper, fillet=_SPIGOT_CORNER, refers="A",
                  along=BEARING_FACE),
         shoulder("face under the output bearing", top, housing.clamp_inner,
                  0.5 * output.outer_diameter, "up", None, refers="A", along=BEARING_FACE),
-        *_ring_pin_seats(pack, bottom + pack.relief, downward=False),
+        *_ring_pin_seats(pack, max(pack.top + pack.relief, bottom), downward=False),
     )  # fmt: skip
 
 

@@ -34,6 +34,9 @@ TURNED, FINE, GROUND, GENERAL = 1.6e-6, 0.8e-6, 0.4e-6, 3.2e-6
 BEARING_FACE = 50e-6
 """Of the heights of faces between which bearings stand, to either side, m: what a lathe holds;
 shims make up for the sum."""
+RING_FACE = 30e-6
+"""The same of the two faces that leave the ring its play: the clamp's over it, and the housing's
+under the clamp."""
 THREAD_CLASS = "6H"
 _RUN_OUT_TURNS = 3.0
 """Drilled beyond the full thread, in pitches: what a tap's lead of 2 to 3 threads leaves (DIN 2197

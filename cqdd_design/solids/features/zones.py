@@ -5,13 +5,14 @@ the lobe (h6), while its outer ring is pressed into the disc (N7). The shaft's s
 the output bearing are pressed on what turns (k6) and slide in what stands (H7). The load of the
 support bearings turns with the crank too, and would roll their outer rings round in such seats; but
 pressed on both sides they could not be set to their axial play, so a retaining compound holds them
-there. Ring and pins are located without play that matters: n6 in H7 for the ring, which its clamp
-then holds, H7 over the f9 shoulders of the screws. A retaining compound fills what H7 leaves there
-where a pin is to sit stiffly: in a cap whose joint is clamped, and in the plate where a dowel has
-no thread. The bell's bore is F7 over the k6 of the shaft, a slip fit of a few hundredths at most
-that the compound fills. So does D8 round the m6 dowels of the ring, whose halves are cut apart:
-where ring and housing miss each other by the zones of their grooves, a dowel still goes in by hand,
-and the compound takes the play that would let the ring turn.
+there. Ring and pins are located without play that matters: n6 in H7 for the ring, with a compound
+round it, since a warm housing of aluminium lets go of it, H7 over the f9 shoulders of the screws. A
+retaining compound fills what H7 leaves there where a pin is to sit stiffly: in a cap whose joint is
+clamped, and in the plate where a dowel has no thread. The bell's bore is F7 over the k6 of the
+shaft, a slip fit of a few hundredths at most that the compound fills. So does D8 round the m6
+dowels of the ring, whose halves are cut apart: where ring and housing miss each other by the zones
+of their grooves, a dowel still goes in by hand, and the compound takes the play that would let the
+ring turn.
 """
 
 from __future__ import annotations
