@@ -344,3 +344,8 @@ def _judge(path: Path, log: DutyLog, columns: list[_Column]) -> None:
                 f"{format_quantity(float(values[row]), dimension)}, more than any joint has "
                 f"({format_quantity(most, dimension)}); is the unit right?"
             )
+    if not (np.any(log.torque) or np.any(log.speed)):
+        raise DesignError(
+            f"{path}: columns '{columns[1].heading}' and '{columns[2].heading}' are 0 in every "
+            "row, which is rest alone; give rows of what the joint does, or leave the duty out."
+        )

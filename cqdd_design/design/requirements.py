@@ -354,6 +354,11 @@ class Requirements(FrozenModel):
             raise ValueError("duty and duty_file are both given; keep one of them")
         if self.duty_columns is not None and self.duty_file is None:
             raise ValueError("duty_columns belong to a duty_file, and there is none; name it")
+        if self.duty and not any(point.torque or point.speed for point in self.duty):
+            raise ValueError(
+                "torque and speed are 0 in every step of duty, which is rest alone; give steps of "
+                "what the joint does, or leave duty out"
+            )
         total = sum(point.share for point in self.duty)
         if total > 1.0 + 1e-6:
             raise ValueError(

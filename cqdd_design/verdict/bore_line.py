@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from cqdd_design.errors import GeometryError
+from cqdd_design.errors import DesignError, GeometryError
+from cqdd_design.gearbox.cam_bearing import fitting_bearings, largest_outer_diameter
 from cqdd_design.gearbox.checks.state import build_check
-from cqdd_design.machine import Machine
+from cqdd_design.gearbox.stages import Stages
+from cqdd_design.geometry.cycloid import CycloidDisc
+from cqdd_design.machine import Machine, resolve
 from cqdd_design.results import Check
 
 
@@ -25,5 +28,35 @@ def bore_line(machine: Machine) -> Check | None:
         round(hole, 6),
         1e3 * wanted,
         f"{hole:.3g} mm through a shaft of {1e3 * journal:g} mm{beside}",
-        "take a cam bearing and support bearings with a larger bore",
+        "" if round(hole, 6) >= 1e3 * wanted else _wider(machine, hole),
+    )
+
+
+def _wider(machine: Machine, hole: float) -> str:
+    """The cam bearing with the least bore that leaves hole enough, or the most (mm) that any does.
+
+    Support bearings follow from what the eccentrics leave of the shaft within it.
+    """
+    design, wanted = machine.design, 1e3 * (machine.design.requirements.bore or 0.0)
+    now = machine.layout.pack.cam.bearing.bore_diameter
+    valley = CycloidDisc.from_design(design).valley_distance
+    room = largest_outer_diameter(design, 2.0 * Stages.from_design(design).hole_radius, valley)
+    most = hole
+    for one in sorted(fitting_bearings(design, room), key=lambda one: one.bore_diameter):
+        if one.bore_diameter <= now:
+            continue
+        named = {"reducer.cam_bearing.designation": one.designation}
+        try:
+            left = 2e3 * resolve(design.replacing(named)).layout.shaft.bore_radius
+        except DesignError:
+            continue
+        if round(left, 6) >= wanted:
+            return (
+                f"set cam_bearing.designation to '{one.designation}', which leaves a hole of "
+                f"{left:.3g} mm; its own lines are then judged"
+            )
+        most = max(most, left)
+    return (
+        f"no cam bearing that fits this disc leaves a hole of more than {most:.3g} mm: lower "
+        "requirements.bore to that, or raise ring.outer_diameter and output_pins.circle_radius"
     )

@@ -90,6 +90,7 @@ def test_columns_of_any_name_order_and_unit_are_read(tmp_path, text, columns):
         (f"{HEAD}\n0,1,2\n1,1e9,2\n", "line 3: column 'torque [N*m]' is 1000000000 N*m, more than"),
         (HEAD + "\n" + "".join(f"{k / 10 + 9 * (k > 15)},1,2\n" for k in range(40)),
          "line 18: a gap of 9.1 s in column 'time [s]', where rows are 0.1 s apart"),
+        (f"{HEAD}\n0,0,0\n1,-0.0,0\n", "are 0 in every row, which is rest alone"),
         ("PK\x03\x04\0\0", "is not a text file"),
     ],
 )  # fmt: skip

@@ -200,3 +200,12 @@ def test_what_shares_leave_out_is_rest():
     assert heat[1].current_squared == pytest.approx(0.5 * heat[0].current_squared)
     with pytest.raises(DesignError, match=r"add up to 1\.2, more than all of the time"):
         changed(duty=[*duty(0.7), *duty(0.5)])
+
+
+def test_a_duty_of_rest_alone_is_none():
+    """A torque that is held at rest, or turning without load, is one."""
+    rest = {"torque": "0 N*m", "speed": "0 rad/s", "share": 1.0}
+    with pytest.raises(DesignError, match="rest alone; give steps"):
+        changed(duty=[rest, rest])
+    for work in ({"torque": "3 N*m"}, {"speed": "-3 rad/s"}):
+        assert len(changed(duty=[rest | work]).requirements.load_cases) == 1
