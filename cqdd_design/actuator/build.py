@@ -103,10 +103,14 @@ def actuator_parameters(
             f"computed: losses of the gearbox at {torque:g} N*m, and its backdrive torque"
         )
     origins["friction.load_knee"] = (
-        "assumed: above the continuous torque by half, or by a third of the way to the peak"
+        "assumed: above the continuous torque by half, or by a third of the way to the peak, and "
+        "no less than the static backdrive torque"
     )
+    peak = design.requirements.peak_torque
     origins["friction.load_growth"] = (
-        f"computed: losses of the gearbox at {design.requirements.peak_torque:g} N*m"
+        f"computed: losses of the gearbox at {peak:g} N*m"
+        if friction.load_growth
+        else f"computed: none up to {peak:g} N*m, the losses of the gearbox need none"
     )
     speed = design.requirements.input_speed
     for name in ("motor_viscous", "output_viscous"):
@@ -326,7 +330,7 @@ def _gear(
         origins[f"gear.{key}"] = origins["gear.stiffness"]
     if found.least_windup > USUAL_LEAST:
         kept = (
-            f"; windup kept above {100.0 * found.least_windup:g} % of its mean, as the backlash "
+            f"; windup kept above {100.0 * found.least_windup:.3g} % of its mean, as the backlash "
             "varies by more over the turn"
         )
         for key in ("stiffness_cosine", "stiffness_sine"):

@@ -61,7 +61,6 @@ def friction_parameters(
     """
     machine, n = losses.machine, losses.machine.lobe_count
     forward, load, preload = load_shares(losses, torque, input_speed)
-    knee, growth = _knee(losses, torque, peak, input_speed, forward)
     slow, fast = machine.drag(0.0), machine.drag(input_speed)
     output = float(slow["output_bearing"]) * n
     motor = sum(float(v) for k, v in slow.items() if k != "output_bearing") + preload
@@ -71,6 +70,9 @@ def friction_parameters(
     found = losses.backdrive(
         film_speed=input_speed, shaft_running=drag, shaft_resting=drag + cogging
     )
+    # Driven back without anything that drives, it stays below the knee.
+    driven = found.static_torque or found.dynamic_torque or 0.0
+    knee, growth = _knee(losses, torque, peak, input_speed, forward, driven)
     extra = found.static_ratio - 1.0
     if found.dynamic_torque and load < 1.0:
         motor = max((found.dynamic_torque - output) * (1.0 - load) - turned, 0.0) / n
@@ -107,14 +109,20 @@ def load_shares(losses: LossModel, torque: float, input_speed: float) -> tuple[f
 
 
 def _knee(
-    losses: LossModel, torque: float, peak: float, input_speed: float, share: float
+    losses: LossModel,
+    torque: float,
+    peak: float,
+    input_speed: float,
+    share: float,
+    driven: float,
 ) -> tuple[float, float]:
     """Torque up to which a share of it rubs, N m, and by how much more what is above it does.
 
     Half above the torque of the share, or a third of the way to the peak by ratio where that is
-    nearer: up to there friction is at most a twentieth above it.
+    nearer, and no less than what drives the output back (N m): up to there friction is about a
+    tenth above it at most.
     """
-    knee = torque * min(_KNEE, math.cbrt(max(peak / torque, 1.0)))
+    knee = max(torque * min(_KNEE, math.cbrt(max(peak / torque, 1.0))), driven)
     if peak <= knee or share <= 0.0:
         return knee, 0.0
     none, most = losses.coulomb_work([0.0, peak], "drive", input_speed).sum(-1)

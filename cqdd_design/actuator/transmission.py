@@ -19,6 +19,7 @@ loaded curve.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -48,12 +49,14 @@ _MOST_CONTACTS = 4_000_000
 """Of a drawn gearbox over its output turn: what a gigabyte of memory holds."""
 _PROBES = 24
 """Angles of that turn solved first: a gearbox that cannot be is soon refused."""
-_LEAST_WINDUPS = (0.25, 0.35, 0.5, 0.6, 0.7, 0.85, 1.0)
-"""Shares of the mean that no spot falls below, where backlash varies much: the first that leaves
-the stiffness enough of itself everywhere."""
-USUAL_LEAST = _LEAST_WINDUPS[0]
+USUAL_LEAST = 0.25
+"""Share of the mean windup that no spot falls below; where backlash varies much, the least above
+it that leaves the stiffness enough of itself everywhere."""
+_HALVINGS = 8
 _LEAST_STIFFNESS = 0.05
 """Share of the mean."""
+_Series = tuple[FloatArray, FloatArray, FloatArray, FloatArray]
+"""Cosine and sine coefficients of the error, and those of the stiffness."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,17 +160,23 @@ def _felt(whole: _Loaded, half: _Loaded, free: float, per_turn: int) -> Transmis
     error = -(ahead.energy - behind.energy) / (2.0 * torque)
     work = -(ahead.energy + behind.energy) / (2.0 * torque)
     windup = mean + (power + 1.0) / power * (work - work.mean())
-    for least in _LEAST_WINDUPS:
+
+    def above(least: float) -> tuple[IntArray, _Series]:
         share = (mean / np.maximum(windup, least * mean)) ** power
-        orders, series = _harmonics(error, share / share.mean(), per_turn, mean)
-        if least_stiffness(orders, *series[2:]) >= _LEAST_STIFFNESS:
-            break
-    else:
+        return _harmonics(error, share / share.mean(), per_turn, mean)
+
+    def enough(least: float) -> bool:
+        orders, series = above(least)
+        return least_stiffness(orders, *series[2:]) >= _LEAST_STIFFNESS
+
+    least = _least_share(enough)
+    if least is None:
         raise DesignError(
             f"at {torque:g} N*m the gearbox winds up by {math.degrees(mean) * 60.0:.2g} arcmin, "
             "too little beside what its backlash varies by over the turn for a stiffness over "
             "angle; raise requirements.continuous_torque, or tighten the tolerances."
         )
+    orders, series = above(least)
     return Transmission(
         error_torque=torque,
         error_orders=orders,
@@ -180,6 +189,19 @@ def _felt(whole: _Loaded, half: _Loaded, free: float, per_turn: int) -> Transmis
         backlash=free,
         least_windup=least,
     )
+
+
+def _least_share(enough: Callable[[float], bool]) -> float | None:
+    """The least share of the mean windup that is enough, from the usual one to all of it."""
+    if enough(USUAL_LEAST):
+        return USUAL_LEAST
+    short, least = USUAL_LEAST, 1.0
+    if not enough(least):
+        return None
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (short + least)
+        short, least = (short, middle) if enough(middle) else (middle, least)
+    return least
 
 
 def _refuse_too_many(model: ContactModel) -> None:
@@ -196,7 +218,7 @@ def _refuse_too_many(model: ContactModel) -> None:
 
 def _harmonics(
     error: FloatArray, share: FloatArray, per_turn: int, windup: float
-) -> tuple[IntArray, tuple[FloatArray, FloatArray, FloatArray, FloatArray]]:
+) -> tuple[IntArray, _Series]:
     """Orders worth keeping, and cosine and sine coefficients of error and stiffness share."""
     count = len(error)
     spectra = [np.fft.rfft(values) * (2.0 / count) for values in (error, share)]

@@ -21,7 +21,7 @@ _FEW_LOOKS = 8
 """The same where a look costs much."""
 _NEAR = 1e-3
 """Of a limit, how much may be left of it."""
-_CLOSE = 1.05
+_CLOSE = 1.02
 """From one torque to another, up to which it is not looked on there."""
 ROUGHLY = 5e-3
 """The same where a look costs much."""

@@ -8,13 +8,14 @@ other before any of them is too warm.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from types import MappingProxyType
 
 from cqdd_design.errors import CatalogError, DesignError
 from cqdd_design.gearbox.checks.allowables import BINDING_OVERLAP
 from cqdd_design.machine.cures import ROUGHLY, most_that_holds
 from cqdd_design.machine.machine import Machine
-from cqdd_design.machine.temperatures import machine_temperatures
+from cqdd_design.machine.temperatures import MachineTemperatures, machine_temperatures
 
 
 def lasting_torque(
@@ -34,14 +35,14 @@ def lasting_torque(
     speed : float
         Of the motor, rad/s.
     told : mapping of float to float
-        Torques, N m, whose margins are known: 1 over `MachineTemperatures.heat_share`.
+        Torques, N m, whose :func:`margin_of` is known.
     free : bool
         Whether it has to leave parts free of each other too.
 
     Returns
     -------
     float
-        From below, to half a per cent of the rise; 0 where none was found.
+        From below, to two per cent; 0 where none was found.
 
     Raises
     ------
@@ -75,25 +76,37 @@ def lasting_speed(machine: Machine, most: float, *, free: bool = True) -> float:
     return most if margin(most) >= 1.0 else most_that_holds(margin, tuple(known), ROUGHLY)
 
 
+def margin_of(held: MachineTemperatures, *, free: bool) -> float:
+    """Rise that parts bear over that which they have; 0 where it is not known.
+
+    Or what they may press on each other over how much they do, where they have to be free and that
+    is less.
+    """
+    if held.cold:
+        return 0.0
+    margin = 1.0 / held.heat_share
+    if margin < 1.0 or not free:
+        return margin
+    pressed = held.tightest.overlap
+    return min(margin, (1e-6 * BINDING_OVERLAP / pressed) ** 0.5) if pressed > 0.0 else margin
+
+
 def _turning(machine: Machine, speed: float) -> Machine:
-    """The machine with its continuous torque at a speed of the motor, rad/s."""
-    other = machine.changed({"requirements.continuous_speed": speed})
+    """The machine with its continuous torque at a speed of the motor, rad/s.
+
+    Slower too than a design may state: it may stand.
+    """
+    asked = machine.design.requirements.unchecked_copy({"continuous_speed": speed})
+    other = replace(machine, design=machine.design.unchecked_copy({"requirements": asked}))
     vars(other).update(contact=machine.contact, bodies=machine.bodies)
     return other
 
 
 def _margin(machine: Machine, torque: float, *, free: bool) -> float:
-    """Rise that parts bear over that under a torque, N m; 0 where they are not known to.
-
-    And where warm parts press on each other, if they have to be free.
-    """
+    """Of the machine under a torque, N m."""
     peak = max(machine.design.requirements.peak_torque, torque)
     try:
         held = machine_temperatures(machine.under(peak=peak, continuous=torque), duty=False)
+        return margin_of(held, free=free)
     except (CatalogError, DesignError):
         return 0.0
-    margin = 1.0 / held.heat_share
-    if margin < 1.0:
-        return margin
-    pressing = free and held.tightest.overlap > 1e-6 * BINDING_OVERLAP
-    return 0.0 if held.cold or pressing else margin

@@ -121,7 +121,7 @@ class Cost:
         Of the parts that the search counts, kg more than those of the design; None where nothing
         near it bears that.
     beyond_motor : bool
-        Whether that is more than the design's motor gives.
+        Whether that is more than the design's motor gives, or holds for ever as it is cooled.
     """
 
     key: str
@@ -135,13 +135,13 @@ class Cost:
         """In words."""
         more = "not in this space" if self.mass is None else f"{1e3 * self.mass:+.0f} g"
         if self.beyond_motor:
-            more = "not with this motor"
+            more = "not with this motor, as it is cooled"
         return f"{self.words} {more}"
 
     def to_dict(self) -> dict[str, object]:
         """Return the JSON form."""
         more = None if self.mass is None or self.beyond_motor else 1e3 * self.mass
-        return {"key": self.key, "change": self.words, "mass_g": more}
+        return {"key": self.key, "change": self.words, "mass_g": more, "beyond_motor": self.beyond_motor}
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from cqdd_design.gearbox.bodies.strength import BodyStrength
 from cqdd_design.gearbox.checks.heat import cooling_remedy
 from cqdd_design.machine import Machine
 from cqdd_design.machine.body_analysis import judged_or_told
-from cqdd_design.machine.lasting import lasting_torque
+from cqdd_design.machine.lasting import lasting_torque, margin_of
 from cqdd_design.machine.temperatures import (
     MachineTemperatures,
     enough_cooling,
@@ -158,26 +158,30 @@ def _lasting(
     warm, checks, _ = heat
     if machine.stiff or actuator is None or warm is None:
         return None
-    asked, told = machine.design.requirements, {}
-    rise, clearance = (line.known and line.status == "pass" for line in checks)
-    if asked.load_cases:
+    asked = machine.design.requirements
+    holds = all(line.known and line.status == "pass" for line in checks)
+    steady = not asked.load_cases
+    if steady:
+        speed, most = asked.held_speed, demands(actuator, asked)[1].found.most
+        if holds and most <= asked.continuous_torque:
+            return most
+    else:
         speed = lasting_speed_of(asked)
         most = float(held_torque(actuator, speed / asked.ratio)[0])
-    else:
-        speed, most = asked.held_speed, demands(actuator, asked)[1].found.most
-        if rise and most <= asked.continuous_torque:
-            return most
-        if not warm.cold:
-            told = {asked.continuous_torque: 1.0 / warm.heat_share}
     if most <= 0.0:
         return most
-    # Parts that are cool and press on each other do so for other reasons than a torque.
-    ways = (True,) if clearance else (False,) if rise else (True, False)
+    # Where clearances are not known, temperatures alone decide.
+    ways = (True, False) if checks[1].known else (False,)
     try:
-        found = (lasting_torque(machine, most, speed, told, free=free) for free in ways)
-        return next((torque for torque in found if torque > 0.0), 0.0)
+        for free in ways:
+            told = {asked.continuous_torque: margin_of(warm, free=free)} if steady else {}
+            found = lasting_torque(machine, most, speed, told, free=free)
+            # Parts that press under any torque do so for other reasons.
+            if found > 0.0:
+                return found
     except (ContactError, DesignError, GeometryError):
         return None
+    return 0.0
 
 
 def _drawn(machine: Machine, samples: int, sensitivity: bool) -> tuple[Drawn | None, str]:

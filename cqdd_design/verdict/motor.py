@@ -175,7 +175,7 @@ def _continuous(
         most,
         asked.continuous_torque,
         f"{most:.4g} N*m at {asked.held_speed * _RPM:.0f} rpm of the motor{winding}; {still:.4g} "
-        "N*m standing still",
+        f"N*m standing still{' by the same' if winding else ''}",
         f"{lower}{slower}lower friction, or cool it (drive.thermal_resistance states how well)",
         model=model,
     )
@@ -220,10 +220,9 @@ def _slower(actuator: ActuatorParameters, machine: Machine, *, parts: bool) -> s
     asked = machine.design.requirements
     told = held_up_to(actuator, asked)
     if told and parts:
-        with suppress(DesignError):
-            found = (lasting_speed(machine, told / _RPM, free=free) for free in (True, False))
-            lasting = next((speed for speed in found if speed > 0.0), 0.0)
-            told = rounded_down(lasting * _RPM) if lasting else 0.0
+        found = (lasting_speed(machine, told / _RPM, free=free) for free in (True, False))
+        lasting = next((speed for speed in found if speed > 0.0), 0.0)
+        told = rounded_down(lasting * _RPM) if lasting else 0.0
     if not told:
         return ""
     if asked.continuous_speed is None:

@@ -140,7 +140,10 @@ def test_discs_without_spacing_have_no_play() -> None:
     [
         *CASES,
         ("cqdd-10", {"housing.material": "AISI 4140 Q&T 540C"}),
-        ("cqdd-10", {"reducer.ring_material": "7075-T6", "housing.material": "304 / 18-8 annealed"}),
+        (
+            "cqdd-10",
+            {"reducer.ring_material": "7075-T6", "housing.material": "304 / 18-8 annealed"},
+        ),
         ("cqdd-10", {"reducer.disc_thickness": "20 mm"}),
     ],
 )

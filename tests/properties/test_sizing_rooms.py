@@ -133,8 +133,9 @@ def test_more_than_a_motor_gives_costs_no_grams():
     ]
     peak, lasting, life = held_to_motor(told, lines)
     assert peak.told == "10 % more peak torque +4 g"
-    assert lasting.told == "10 % more continuous torque not with this motor"
+    assert lasting.told == "10 % more continuous torque not with this motor, as it is cooled"
     assert lasting.to_dict()["mass_g"] is None
+    assert [one.to_dict()["beyond_motor"] for one in (peak, lasting, life)] == [False, True, False]
     assert life == told[2]
 
 

@@ -62,6 +62,7 @@ class Unknown:
         if "load_backward" in self.names:
             friction = parameters.friction
             holding = friction.load_backward * (1.0 + friction.stribeck_extra)
+            holding *= 1.0 + friction.load_growth
             most = max(min(most, _HELD / holding if holding > 0.0 else most), 2.0 * least)
         return least, most
 

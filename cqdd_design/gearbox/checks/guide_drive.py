@@ -87,7 +87,7 @@ ROWS = (
         "torque",
         "Copper, iron, drag and the gearbox's friction warm the winding to what the air carries "
         "off; driver and voltage count too, and what THERMAL-RISE and THERMAL-CLEARANCE ask of all "
-        "parts, to a per cent, from below. The speed is the input speed, unless continuous_speed "
+        "parts, to two per cent, from below. The speed is the input speed, unless continuous_speed "
         "gives it one of its own. Under a duty its own heat decides instead. "
         f"{_SCREENED}",
         _EFFICIENCY,
