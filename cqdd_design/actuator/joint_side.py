@@ -48,8 +48,8 @@ class JointSide:
     peak_torque : float
         The same with the drive's limit, and no more than the motor's own peak torque, N m.
     continuous_torque : float
-        Held for ever at standstill by the thermal model, winding and magnets at the winding's
-        limit, without losses, N m.
+        Held for ever at standstill by the thermal model and the drive, winding and magnets at the
+        winding's limit, without losses, N m; what other parts stand is not in it.
     ideal_speed : float
         Full voltage over back-EMF constant, no friction, rad/s.
     no_load_speed : float
@@ -93,7 +93,8 @@ def joint_side(parameters: ActuatorParameters) -> JointSide:
     constant = n * motor.torque_constant
     stall_current = volts / motor.resistance
     peak_current = min(stall_current, parameters.peak_current)
-    held = float(torque_constant_at(motor, thermal.most)) * continuous_current(motor, thermal)
+    held = min(continuous_current(motor, thermal), peak_current)
+    held *= float(torque_constant_at(motor, thermal.most))
     return JointSide(
         reduction=n,
         crank_sense=int(math.copysign(1.0, parameters.gear.ratio)),

@@ -225,6 +225,11 @@ def held_torque(
     return np.asarray(np.maximum(torque, 0.0))
 
 
+def lasting_torque(parameters: ActuatorParameters, speed: float) -> float:
+    """Torque that winding and drive hold for ever at an output speed (rad/s), N m."""
+    return judge(parameters, 0.0, speed, lasting=True, hot=True).most
+
+
 def time_to_limit(parameters: ActuatorParameters, current: float, heat: float) -> float:
     """Time under a current until a cold winding is at its limit, s; inf where it never is."""
     motor, thermal = parameters.motor, parameters.thermal

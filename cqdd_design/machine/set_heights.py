@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from cqdd_design.catalog.encoders import encoder_sensors
+from cqdd_design.catalog.encoders import EncoderSensor, encoder_sensors
 
 if TYPE_CHECKING:
     from cqdd_design.machine.machine import Machine
@@ -31,9 +31,10 @@ def set_heights(machine: Machine) -> list[str]:
         return []
     carrier = "rotor hub" if machine.layout.inrunner is not None else "rotor bell"
     rotor = (
-        f"No shoulder places the {carrier} on the shaft. With the shaft's shims in place, set its "
-        f"hub's lower face {_MM * (motor.joint - motor.hub_bottom):.4g} \u00b1{_SET_WITHIN:g} mm "
-        f"from {_FACE} by a height gauge, and hold it so until the bond has set."
+        f"No shoulder places the {carrier} on the shaft. With the shaft pushed down onto its lower "
+        f"bearing, set its hub's lower face {_MM * (motor.joint - motor.hub_bottom):.4g} "
+        f"\u00b1{_SET_WITHIN:g} mm from {_FACE} by a height gauge, and hold it so until the bond "
+        "has set."
     )
     return [rotor, _encoder(machine, motor)]
 
@@ -54,9 +55,21 @@ def _encoder(machine: Machine, motor: MotorEnd) -> str:
             f"{sensor.name}, {gap}"
         )
     return (
-        f"The encoder's gap is measured before the motor cover goes on: from {_FACE} to the "
-        f"sensor in it {_MM * (motor.joint - motor.sensor_top):.4g} mm as drawn, less from the "
-        f"same face to the magnet {_MM * (motor.joint - motor.magnet_bottom):.4g} mm as drawn, "
-        f"has to leave {gap}. Where that is too little, deepen the magnet's seat; where it is too "
-        "much, bond it proud."
+        "The encoder's gap is measured before the magnet is bonded, which is laid in dry: from "
+        f"{_FACE} to the sensor in it {_MM * (motor.joint - motor.sensor_top):.4g} mm as drawn, "
+        f"less from the same face to the magnet {_MM * (motor.joint - motor.magnet_bottom):.4g} mm "
+        f"as drawn, has to leave {gap}. Where that is too little, deepen the magnet's seat; where "
+        f"it is too much, bond it proud.{_other_magnet(motor, sensor)}"
+    )
+
+
+def _other_magnet(motor: MotorEnd, sensor: EncoderSensor | None) -> str:
+    """Where the sensor's gap is stated for another magnet than that which the shaft takes."""
+    size = (2.0 * motor.magnet_radius, motor.magnet_height)
+    if sensor is None or sensor.least_gap is None or sensor.magnet_diameter == size[0]:
+        return ""
+    told = f"{_MM * sensor.magnet_diameter:g} x {_MM * sensor.magnet_height:g} mm"
+    return (
+        f" That gap is for a magnet of {told}, this one is {_MM * size[0]:g} x "
+        f"{_MM * size[1]:g} mm: let the field that the sensor itself reads decide."
     )

@@ -13,7 +13,9 @@ from cqdd_design.exporting import ExportOptions
 from cqdd_design.exporting import export as write
 from cqdd_design.exporting.kinds import KINDS, ExportKind, read_kinds
 from cqdd_design.exporting.options import DEFAULTS
+from cqdd_design.errors import DesignError
 from cqdd_design.files import WrittenFile
+from cqdd_design.machine.carrying import carried_up_to
 from cqdd_design.roads.telling import Progress, silent
 
 _BY_WIRE = ("edm", "gcode")
@@ -67,8 +69,15 @@ def _simulates(kind: ExportKind) -> bool:
 def left_out(
     design: Design, kinds: str | Iterable[str], *, specimen: Specimen = AS_DRAWN
 ) -> tuple[str, ...]:
-    """Sentences on what files do not show, a motor that cannot be drawn, or do not make."""
-    return (*_undrawn(design, kinds, specimen), *_uncut(design, kinds))
+    """Sentences on what files do not show, as a motor that cannot be drawn, or do not make.
+
+    And on what simulators are allowed that the gearbox does not carry.
+    """
+    return (
+        *_undrawn(design, kinds, specimen),
+        *_uncut(design, kinds),
+        *_not_carried(design, kinds, specimen),
+    )
 
 
 def _undrawn(design: Design, kinds: str | Iterable[str], specimen: Specimen) -> tuple[str, ...]:
@@ -81,6 +90,30 @@ def _undrawn(design: Design, kinds: str | Iterable[str], specimen: Specimen) -> 
     return (
         f"the motor is not drawn: {missing}. Its stator, rotor, bell and cover and the encoder are "
         f"not in {', '.join(solid)}.",
+    )
+
+
+def _not_carried(
+    design: Design, kinds: str | Iterable[str], specimen: Specimen
+) -> tuple[str, ...]:
+    """Of the effort that simulators' files allow, which is what motor and drive give."""
+    simulated = [kind for kind in read_kinds(kinds) if _simulates(KINDS[kind])]
+    if not simulated:
+        return ()
+    from cqdd_design.actuator.build import actuator_parameters
+    from cqdd_design.exporting.simulators.stated import effort_limit
+
+    machine = specimen.machine(design)
+    most = effort_limit(actuator_parameters(machine, specimen))
+    try:
+        carried = carried_up_to(machine, most)
+    except DesignError as error:
+        return (f"whether the gearbox carries {most:.3g} N*m is not known: {error.message}",)
+    if not carried.limits or carried.limits[0].torque >= most:
+        return ()
+    return (
+        f"{', '.join(simulated)}: motor and drive give up to {most:.3g} N*m, the effort limit in "
+        f"these files; {carried.told(most)}. Keep commands and shocks below that in training too.",
     )
 
 

@@ -141,7 +141,12 @@ class Cost:
     def to_dict(self) -> dict[str, object]:
         """Return the JSON form."""
         more = None if self.mass is None or self.beyond_motor else 1e3 * self.mass
-        return {"key": self.key, "change": self.words, "mass_g": more, "beyond_motor": self.beyond_motor}
+        return {
+            "key": self.key,
+            "change": self.words,
+            "mass_g": more,
+            "beyond_motor": self.beyond_motor,
+        }
 
 
 @dataclass(frozen=True)

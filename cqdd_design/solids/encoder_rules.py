@@ -21,8 +21,9 @@ from cqdd_design.solids.selection import cap_screw
 _SENSOR_GAP = 1.0e-3
 """From magnet to sensor; makers of magnetic encoders ask for 0.5 to 2 mm."""
 _SENSOR_HEIGHT, _BOARD_THICKNESS = 0.9e-3, 1.6e-3
-_MAGNETS = (3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0)
-"""Diameters of diametric encoder magnets, mm; they are half as high, 2.5 mm at the most."""
+_MAGNETS = (3.0, 4.0, 5.0, 6.0)
+"""Diameters of diametric encoder magnets, mm; they are half as high, 2.5 mm at the most. Sensors on
+the axis are made for 6 x 2.5 mm (`encoders.csv`); a shaft too thin for it takes a smaller one."""
 RING_WALL, RING_HEIGHT = 3.5e-3, 4.0e-3
 """Section of a ring magnet of NdFeB N35: on stubs up to 24 mm it puts 30 to 150 mT on the sensor
 beside it, what MagAlpha sensors ask for (MPS, MA700 data sheet, 2014)."""

@@ -6,9 +6,9 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 
+from cqdd_design.actuator import operating
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.demands import demands
-from cqdd_design.actuator.operating import held_torque
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.specimen import Specimen
 from cqdd_design.errors import ContactError, CqddError, DesignError, GeometryError, UsageError
@@ -167,7 +167,7 @@ def _lasting(
             return most
     else:
         speed = lasting_speed_of(asked)
-        most = float(held_torque(actuator, speed / asked.ratio)[0])
+        most = operating.lasting_torque(actuator, speed / asked.ratio)
     if most <= 0.0:
         return most
     # Where clearances are not known, temperatures alone decide.

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from cqdd_design.actuator.operating import held_torque
+from cqdd_design.actuator.operating import lasting_torque
 from cqdd_design.errors import ContactError, GeometryError
 from cqdd_design.gearbox.checks.equilibrium import DUTY_MODEL, ENDLESS
 from cqdd_design.gearbox.checks.heat import BURNT
@@ -118,7 +118,7 @@ def _continuous(evidence: Evidence, by_id: dict[str, Check]) -> Figure:
         whose = "the duty's mean speed of the motor"
     value, alone, lasting, known = None, "", evidence.lasting_torque, OPERATING
     if evidence.actuator is not None:
-        value = float(held_torque(evidence.actuator, speed / asked.ratio)[0])
+        value = lasting_torque(evidence.actuator, speed / asked.ratio)
         alone = "" if value > 0.0 else ": friction alone heats the winding too much there"
         if lasting is not None and lasting < value:
             value, known = lasting, ALL_PARTS

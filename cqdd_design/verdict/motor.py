@@ -19,6 +19,7 @@ from cqdd_design.actuator.operating import (
     envelope_torque,
     held_torque,
     judge,
+    lasting_torque,
     output_torque,
 )
 from cqdd_design.actuator.parameters import ActuatorParameters
@@ -160,12 +161,15 @@ def _continuous(
         cure = "state what cooling reaches as drive.thermal_resistance"
         limit = asked.continuous_torque
         return build_check("MOTOR-CONTINUOUS", None, limit, uncooled, cure, model=MODEL)
-    alone, still = demand.found.most, float(held_torque(actuator, 0.0)[0])
+    alone, still = demand.found.most, lasting_torque(actuator, 0.0)
     most = alone if lasting is None else min(alone, lasting)
     slower = ""
     if most < asked.continuous_torque:
         slower = _slower(actuator, machine, parts=lasting is not None)
     winding = f", {alone:.4g} N*m by winding and drive alone" if most < alone else ""
+    unjudged = ""
+    if lasting is None and not machine.stiff:
+        unjudged = "; what other parts stand is not known"
     model = ALL_PARTS if most < alone else MODEL
     # What friction alone overheats holds nothing while it turns. Friction is put in numbers at the
     # torque that is asked for: at a lower one a little more may be held.
@@ -175,7 +179,7 @@ def _continuous(
         most,
         asked.continuous_torque,
         f"{most:.4g} N*m at {asked.held_speed * _RPM:.0f} rpm of the motor{winding}; {still:.4g} "
-        f"N*m standing still{' by the same' if winding else ''}",
+        f"N*m standing still by winding and drive alone{unjudged}",
         f"{lower}{slower}lower friction, or cool it (drive.thermal_resistance states how well)",
         model=model,
     )

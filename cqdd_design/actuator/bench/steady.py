@@ -160,7 +160,8 @@ def continuous_torque(parameters: ActuatorParameters) -> Metric:
         float(torques.mean()),
         "predicted",
         "Output held still at the current whose heat the two-node network carries off at the "
-        f"winding's limit of {thermal.most:g} degC in {thermal.ambient:g} degC, magnets as warm.",
+        f"winding's limit of {thermal.most:g} degC in {thermal.ambient:g} degC, magnets as warm; "
+        "what other parts stand is not in it, MOTOR-CONTINUOUS counts them while it turns.",
         spread=float(torques.std(ddof=1)),
         details={"current_A": current},
         trace={

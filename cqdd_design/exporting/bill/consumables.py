@@ -84,6 +84,10 @@ def bonds(machine: Machine) -> tuple[Bond, ...]:
     support = layout.shaft.support.bearing
     outside, gap = support.outer_diameter, _gap(zones.HOUSED, "h6", support.outer_diameter)
     found.append(Bond("outer rings of the shaft bearings", outside, support.width, gap, 2))
+    cam = layout.pack.cam.bearing
+    if cam.raceway_diameter is not None:
+        gap, count = _gap("H6", zones.LOBE, cam.bore_diameter), layout.pack.disc_count
+        found.append(Bond("inner rings on the lobes", cam.bore_diameter, cam.width, gap, count))
     pin = carrier.pin.nominal_diameter
     if carrier.bonded_in_cap:
         depth = -layout.pack.gap - carrier.shoulder_bottom

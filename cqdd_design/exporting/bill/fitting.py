@@ -60,9 +60,10 @@ def _shims(machine: Machine) -> dict[str, str]:
         least, most = (_MM * value for value in stack.play)
         room = " to ".join(f"{_MM * value:.2f}" for value in stack.worst)
         notes[name] = (
-            f"{stack.kit.told}: measure the room, {room} mm, and take the thickest pack that "
-            f"leaves {least:.2f} mm: the play is then {least:.2f} to {most:.2f} mm; drawn "
-            f"{_MM * stack.shims.pack:g} mm; a price is that of all of them"
+            f"{stack.kit.told}: measure the parts' lengths singly before any is fitted, whose sum "
+            f"is the room, {room} mm, and take the thickest pack that leaves {least:.2f} mm: the "
+            f"play is then {least:.2f} to {most:.2f} mm; drawn {_MM * stack.shims.pack:g} mm; a "
+            "price is that of all of them"
         )
     return notes
 
@@ -76,7 +77,8 @@ def _bearings(machine: Machine, parts: dict[str, Part]) -> dict[str, str]:
             parts.values(),
             ("eccentric shaft", "disc"),
         )
-        + _on_loose_cam(machine, parts),
+        + _on_loose_cam(machine, parts)
+        + _inner_rings(layout),
         "shaft bearing": _seated(
             layout.shaft.support.bearing.bore_diameter,
             layout.shaft.support.bearing.outer_diameter,
@@ -93,6 +95,16 @@ def _bearings(machine: Machine, parts: dict[str, Part]) -> dict[str, str]:
         )
         + "; locked with the bearing nut",
     }
+
+
+def _inner_rings(layout: Layout) -> str:
+    """What holds the inner rings of needle bearings, along which their needles slide."""
+    if layout.pack.cam.bearing.raceway_diameter is None:
+        return ""
+    return (
+        f"; inner rings bonded on their lobes with {ROTOR_COMPOUND.name} in the middle of the "
+        "outer ones, for needles hold nothing along the shaft"
+    )
 
 
 def _on_loose_cam(machine: Machine, parts: dict[str, Part]) -> str:

@@ -6,11 +6,12 @@ Zones follow from the standard deviations of the design's [tolerances], as those
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from cqdd_design.catalog import find_material
+from cqdd_design.catalog.bearings import find_bearing
 from cqdd_design.catalog.printing import made_how
 from cqdd_design.exporting.edm.dxf import contour_fit
 from cqdd_design.exporting.edm.flat_parts import seats_of
@@ -20,6 +21,8 @@ from cqdd_design.exporting.edm.seats import Seat
 from cqdd_design.exporting.edm.wire_path import WirePath, wire_paths
 from cqdd_design.exporting.options import DEFAULTS, ExportOptions
 from cqdd_design.solids.features.flat import cut_zone, thickness_limits, tooth_deviation
+from cqdd_design.solids.features.housing import RING_CORNER
+from cqdd_design.solids.features.making import BEARING_FACE
 
 if TYPE_CHECKING:
     from cqdd_design.design import Design
@@ -30,6 +33,8 @@ GROUND_FLATNESS = 5e-6
 """Faces of a plate from an everyday surface grinder, m."""
 GROUND_PARALLELISM = 10e-6
 """Both faces of a plate from an everyday surface grinder, m."""
+_RING_EDGE = "0.3 to 0.5"
+"""mm: above the corner of its seat, and what leads it into an interference fit."""
 _WALL_SQUARENESS = 5e-6
 """Of the cut walls to the lower face, m: what is left of taper after skim cuts."""
 CUT_FINISH, FACE_FINISH = "Ra 0.4", "Ra 0.8"
@@ -91,6 +96,8 @@ class CutFacts:
         Along every contour, the rough cut first.
     seats : tuple of Seat
         Contours with an ISO 286 zone.
+    fitting : tuple of str
+        Sentences on edges, marks and what is pressed in.
     """
 
     flat: FlatPart
@@ -100,6 +107,7 @@ class CutFacts:
     passes: tuple[WirePass, ...]
     zones: Zones
     seats: tuple[Seat, ...]
+    fitting: tuple[str, ...]
 
     @property
     def mass(self) -> float:
@@ -129,8 +137,9 @@ class CutFacts:
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """Remarks of the part as sentences."""
-        return tuple(f"{one[0].upper()}{one[1:]}." for one in said(self.flat.remarks))
+        """Remarks of the part and on its fitting, as sentences."""
+        told = tuple(f"{one[0].upper()}{one[1:]}." for one in said(self.flat.remarks))
+        return (*told, *self.fitting)
 
     @property
     def seat_by_contour(self) -> dict[int, Seat]:
@@ -208,7 +217,30 @@ def facts_of(flat: FlatPart, machine: Machine, options: ExportOptions = DEFAULTS
         passes=wire_passes(flat.contours, design.edm, options.passes),
         zones=zones_of(flat, design),
         seats=seats_of(flat),
+        fitting=tuple(_fitting(flat, machine)),
     )
+
+
+def _fitting(flat: FlatPart, machine: Machine) -> Iterator[str]:
+    """What the next who takes the part in hand has to know of it."""
+    if flat.label == "ring":
+        first = "" if made_how(flat.material, "") else " before the teeth are cut"
+        yield (
+            f"Outer edges of both faces broken {_RING_EDGE} mm at 45\u00b0{first}: the corner of "
+            f"its seat has a radius of {_MM * RING_CORNER:g} mm."
+        )
+        return
+    reducer = machine.design.reducer
+    below = 0.5 * (reducer.disc_thickness - find_bearing(reducer.cam_bearing.designation).width)
+    yield (
+        f"The cam bearing is pressed in to the middle of the thickness, {_MM * below:.2f} "
+        f"\u00b1{_MM * BEARING_FACE:g} mm below either face."
+    )
+    if flat.label != "disc":
+        yield (
+            f"Engrave '{flat.label}' on the upper face: discs of this design differ in nothing "
+            "but in where their holes stand."
+        )
 
 
 def zones_of(flat: FlatPart, design: Design) -> Zones:

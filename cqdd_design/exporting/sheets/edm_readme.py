@@ -55,6 +55,7 @@ def readme_text(parts: Sequence[CutFacts], options: ExportOptions) -> str:
             "with the lower face on the table. Cut the parts below; each has one DXF, one cut "
             "sheet (PDF, and the same as SVG) and, where it was asked for, one program (.nc)."
         ),
+        *_uncut(parts),
         "",
         *_part_lines(parts),
         *_section(
@@ -111,8 +112,23 @@ def readme_text(parts: Sequence[CutFacts], options: ExportOptions) -> str:
     return ascii_text("\n".join(lines)) + "\n"
 
 
+def _uncut(parts: Sequence[CutFacts]) -> list[str]:
+    """Of plastics, which do not conduct."""
+    plastic = [f"{one.flat.label} ({one.flat.material})" for one in parts if one.moulded]
+    if not plastic:
+        return []
+    return [
+        "",
+        *_paragraph(
+            f"NO WIRE CUTS {' AND '.join(plastic)}: they do not conduct, and come from the files "
+            "of `export --to print`. What is said of them here is for a contour to compare with."
+        ),
+    ]
+
+
 def _paragraph(words: str, indent: str = "") -> list[str]:
     plain = words.replace("\u00b5", "u").replace("\u00b0C", "deg C").replace("\u00d8", "dia ")
+    plain = plain.replace("\u00b1", "+-").replace("\u00b0", " deg")
     plain = plain.replace("\u00b2", "2")
     return textwrap.wrap(plain, _WIDTH, initial_indent=indent, subsequent_indent=" " * len(indent))
 

@@ -71,7 +71,10 @@ def cooling_remedy(enough: float | None = None, *, duty: bool = False) -> str:
     if enough == 0.0:
         cool = "no cooling is enough: "
     less = (
-        "torques or speeds of the duty" if duty else "requirements.continuous_torque, input_speed"
+        "torques or speeds of the duty"
+        if duty
+        else "requirements.continuous_torque, or continuous_speed (input_speed where that is not "
+        "stated)"
     )
     return f"{cool}lower {less}, or friction"
 

@@ -92,8 +92,10 @@ def sentence(parameters: ActuatorParameters, point: Demand) -> str:
     )
     lasts = duration(found.lasts)
     if found.inside:
-        kept = "for ever" if math.isinf(found.lasts) else f"for {lasts} from cold"
-        return f"{head} are inside: {takes}; they can be held {kept}."
+        held = f"they can be held for {lasts} from cold"
+        if math.isinf(found.lasts):
+            held = "winding and drive hold them for ever, for other parts see THERMAL-RISE"
+        return f"{head} are inside: {takes}; {held}."
     words = [_LIMITS[limit] for limit in found.binding]
     binds = f"{' and '.join(words)} {'bind' if len(words) > 1 else 'binds'}"
     told = f"{head} are outside, as {binds}: they take {takes}."
@@ -131,8 +133,9 @@ def _duty_heat(parameters: ActuatorParameters, requirements: Requirements) -> st
         return f"{head}the winding would heat without end, so that heat binds."
     verdict = "within" if found.winding <= most else "above, so that heat binds,"
     return (
-        f"{head}the winding would settle at {with_unit(found.winding, 'degC', 3)}, {verdict} its "
-        f"limit of {with_unit(most, 'degC')}."
+        f"{head}by the two nodes of winding and housing the winding would settle at "
+        f"{with_unit(found.winding, 'degC', 3)}, {verdict} its limit of {with_unit(most, 'degC')}; "
+        "THERMAL-RISE has it by the network of all parts."
     )
 
 

@@ -83,7 +83,7 @@ def housing_features(layout: Layout) -> tuple[Feature, ...]:
     found: list[Feature] = [
         ring,
         shoulder("ledge of the ring", 0.0, pack.ledge_radius, pack.ring_radius, "up", ring,
-                 fillet=_RING_CORNER, datum="B"),
+                 fillet=RING_CORNER, datum="B"),
         bore,
         shoulder("shoulder of the shaft bearing", seat_bottom, support.lip_radius,
                  0.5 * support.bearing.outer_diameter, "up", bore,
@@ -119,8 +119,8 @@ def _band_bottom(layout: Layout) -> float:
     return end if layout.motor is None else max(end, layout.motor.flange_top)
 
 
-_RING_CORNER = 0.2e-3
-"""Largest corner radius in the ring's seat: the ring is cut by wire, its edges are broken less."""
+RING_CORNER = 0.2e-3
+"""Largest corner radius in the ring's seat, m: the ring's outer edges are broken by more."""
 
 
 def _seal_bore(seal: GapSeal, name: str) -> TrueFace:
