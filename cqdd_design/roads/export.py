@@ -9,11 +9,11 @@ from pathlib import Path
 from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.catalog.printing import printed_materials
 from cqdd_design.design import Design
+from cqdd_design.errors import DesignError
 from cqdd_design.exporting import ExportOptions
 from cqdd_design.exporting import export as write
 from cqdd_design.exporting.kinds import KINDS, ExportKind, read_kinds
 from cqdd_design.exporting.options import DEFAULTS
-from cqdd_design.errors import DesignError
 from cqdd_design.files import WrittenFile
 from cqdd_design.machine.carrying import carried_up_to
 from cqdd_design.roads.telling import Progress, silent
@@ -93,9 +93,7 @@ def _undrawn(design: Design, kinds: str | Iterable[str], specimen: Specimen) -> 
     )
 
 
-def _not_carried(
-    design: Design, kinds: str | Iterable[str], specimen: Specimen
-) -> tuple[str, ...]:
+def _not_carried(design: Design, kinds: str | Iterable[str], specimen: Specimen) -> tuple[str, ...]:
     """Of the effort that simulators' files allow, which is what motor and drive give."""
     simulated = [kind for kind in read_kinds(kinds) if _simulates(KINDS[kind])]
     if not simulated:

@@ -23,7 +23,7 @@ from cqdd_design.solids.features.making import BEARING_FACE
 from cqdd_design.solids.layout import Layout, ShimLayout
 from cqdd_design.solids.part import Part
 from cqdd_design.solids.selection import ChosenBearing
-from cqdd_design.solids.shims import OUTPUT_SET, SHAFT_SET, ShimSet
+from cqdd_design.solids.shims import SHAFT_SET, ShimSet, output_set
 
 SHOULDER_SCREW_LENGTH = 0.25e-3
 """By which the shoulder of a screw may be longer than nominal, m (ISO 7379: +0.25/0)."""
@@ -116,11 +116,21 @@ class AxialStack:
         return min(self.kit.least_play, least), max(self.kit.most_play, most - self.kit.most)
 
     @property
+    def clamped(self) -> bool:
+        """Whether shims take all play away."""
+        return self.kit is not None and self.kit.clamps
+
+    @property
     def reserve(self) -> float:
-        """Least play, m, or by how much the thickest pack falls short, negative."""
+        """Least play, m, or by how much the thickest pack falls short, negative.
+
+        Endless where a pack clamps, which is to leave none.
+        """
         least, most = self.play
         short = 0.0 if self.kit is None else most - self.kit.most_play
-        return -short if short > _ROUNDING else least
+        if short > _ROUNDING:
+            return -short
+        return math.inf if self.clamped else least
 
     def to_dict(self) -> dict[str, object]:
         """The JSON form, mm."""
@@ -186,7 +196,9 @@ def axial_stacks(parts: Sequence[Part], layout: Layout) -> tuple[AxialStack, ...
     )
     found = [
         AxialStack("eccentric shaft in its bearings", shaft, carrier.shaft_shim, SHAFT_SET),
-        AxialStack("output bearing in the cover", output, carrier.output_shim, OUTPUT_SET),
+        AxialStack(
+            "output bearing in the cover", output, carrier.output_shim, output_set(carrier.output)
+        ),
     ]
     if carrier.cap:
         discs = tuple(_discs(named, layout))

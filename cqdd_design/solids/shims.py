@@ -29,12 +29,15 @@ class ShimSet(NamedTuple):
     drawn : float
         Pack with nominal lengths.
     least_play : float
-        That a pack has to leave.
+        That a pack has to leave; below zero where the pack clamps the ring instead.
+    step : float
+        By which packs differ.
     """
 
     thicknesses: tuple[float, ...]
     drawn: float
     least_play: float
+    step: float = SHIM_STEP
 
     @property
     def most(self) -> float:
@@ -47,15 +50,23 @@ class ShimSet(NamedTuple):
         return f"one each of {', '.join(f'{1e3 * one:g}' for one in self.thicknesses)} mm"
 
     @property
+    def clamps(self) -> bool:
+        """Whether it leaves no play."""
+        return self.least_play < 0.0
+
+    @property
     def most_play(self) -> float:
         """That the next thicker pack would take away."""
-        return self.least_play + SHIM_STEP
+        return self.least_play + self.step
 
 
 SHAFT_SET = ShimSet((0.1e-3, 0.2e-3, 0.3e-3, 0.5e-3), 0.5e-3, 0.05e-3)
 """Of the shaft: a warm shaft is longer than what stands round it, so it keeps some play."""
 OUTPUT_SET = ShimSet((0.1e-3, 0.2e-3, 0.3e-3), 0.3e-3, 0.02e-3)
 """Of the output bearing, whose cover grows more than it does."""
+CLAMPING_SET = ShimSet(OUTPUT_SET.thicknesses, OUTPUT_SET.drawn, -0.01e-3, 0.01e-3)
+"""Of crossed rollers, whose outer ring is split: a flange has to hold its halves together (THK,
+Cross-Roller Ring, mounting). The pack is ground to the room."""
 
 
 def shaft_shims(support: ChosenBearing) -> ShimLayout:
@@ -65,7 +76,12 @@ def shaft_shims(support: ChosenBearing) -> ShimLayout:
 
 def output_shims(output: ChosenBearing) -> ShimLayout:
     """Over the outer ring of the output bearing, under the cover's lip."""
-    return _beside(output, OUTPUT_SET)
+    return _beside(output, output_set(output))
+
+
+def output_set(output: ChosenBearing) -> ShimSet:
+    """What sets or clamps the output bearing."""
+    return CLAMPING_SET if output.bearing.kind == "crossed roller" else OUTPUT_SET
 
 
 def _beside(chosen: ChosenBearing, kit: ShimSet) -> ShimLayout:
@@ -80,5 +96,5 @@ def _beside(chosen: ChosenBearing, kit: ShimSet) -> ShimLayout:
         0.5 * inner,
         0.5 * outer,
         kit.drawn,
-        0.5 * (kit.least_play + kit.most_play),
+        0.0 if kit.clamps else 0.5 * (kit.least_play + kit.most_play),
     )

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from cqdd_design.catalog.internal_clearance import clearance_group
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.design import load_design
 from cqdd_design.exporting.bill.consumables import consumables
@@ -22,7 +23,7 @@ from cqdd_design.machine.sealing import sealing
 from cqdd_design.machine.temperatures import machine_temperatures
 from cqdd_design.solids.axial import AxialStack, ring_stack
 from cqdd_design.solids.features.holes import Counterbore
-from cqdd_design.solids.shims import OUTPUT_SET, SHAFT_SET
+from cqdd_design.solids.shims import CLAMPING_SET, OUTPUT_SET, SHAFT_SET
 from cqdd_design.verdict.retention_lines import axial_growth, retention_lines
 
 DESIGNS = Path(__file__).resolve().parents[2] / "designs"
@@ -62,9 +63,16 @@ def test_stacks_add_up_to_what_is_drawn(name: str, change: dict[str, object]) ->
     assert shaft.nominal == pytest.approx(drawn_room(machine, "shaft shim", "shaft bearing"))
     assert output.nominal == pytest.approx(drawn_room(machine, "output shim", "output bearing"))
     assert discs.nominal == pytest.approx(2.0 * machine.layout.pack.gap)
-    for stack, kit in ((shaft, SHAFT_SET), (output, OUTPUT_SET)):
+    carried = CLAMPING_SET if name != "printed-13" else OUTPUT_SET
+    for stack, kit in ((shaft, SHAFT_SET), (output, carried)):
         assert stack.shims is not None
+        assert stack.kit is kit
         assert stack.nominal == pytest.approx(stack.shims.room)
+        if stack.clamped:
+            # Crossed rollers: no play is drawn, none is left.
+            assert (stack.shims.play, stack.reserve) == (0.0, math.inf)
+            assert stack.play == pytest.approx((-0.01e-3, 0.0), abs=1e-12)
+            continue
         assert kit.least_play < stack.shims.play < kit.most_play
         assert stack.reserve == pytest.approx(kit.least_play)
     carrier, support = machine.layout.carrier, machine.layout.shaft.support
@@ -83,7 +91,7 @@ def test_worst_play_is_that_of_every_pair_of_limits(machine: Machine) -> None:
         low, high = stack.likely
         assert high - low == pytest.approx(6.0 * math.sqrt(variance))
         assert stack.worst[0] <= low < high <= stack.worst[1]
-        if stack.kit is None:
+        if stack.kit is None or stack.clamped:
             continue
         # Packs in steps, from every room a shop may measure.
         for room in rooms:
@@ -181,6 +189,36 @@ def test_a_warm_housing_takes_the_ring_without_force(machine: Machine) -> None:
     assert rows == {"ring's compound"}
 
 
+def test_a_split_ring_that_no_pack_clamps_fails(machine: Machine) -> None:
+    output = machine.axial_stacks[1]
+    first = dataclasses.replace(output.lengths[0], upper=0.4e-3)
+    wide = dataclasses.replace(output, lengths=(first, *output.lengths[1:]))
+    short = wide.worst[1] - CLAMPING_SET.most
+    assert short > 0.0
+    assert wide.reserve == pytest.approx(-short)
+
+
+def test_bearings_are_ordered_with_the_clearance_that_their_seats_leave(machine: Machine) -> None:
+    """N7 takes 10 um of a 6902 in the mean: CN would leave none of the 5 that are counted with."""
+    notes = fitting_notes(machine)
+    assert "radial clearance C3, 11 to 25 \u00b5m: its seats leave 8" in notes["cam bearing"]
+    assert "(the design counts with 5)" in notes["cam bearing"]
+    assert "clearance C0 or C1, not CC0" in notes["output bearing"]
+    found = clearance_group(15e-3, 28e-3, "h6", "N7", 5e-6)
+    assert found is not None
+    # By hand: 28 N7 is -28/-7 um, the ring 0/-9, which leaves 13 of interference, 0.8 of it taken.
+    assert found.left == pytest.approx(18e-6 - 0.8 * 13e-6)
+    assert found.spread == pytest.approx(math.hypot(7e-6, 0.4 * 21e-6, 0.4 * 9e-6))
+    # Loose in its seats it keeps what it has; on k6 it does not.
+    loose = clearance_group(15e-3, 28e-3, "h6", "H7")
+    assert loose is not None
+    assert (loose.name, loose.left) == ("CN", pytest.approx(10.5e-6))
+    tight = clearance_group(10e-3, 22e-3, "k6", "H7")
+    assert tight is not None
+    assert (tight.name, tight.left) == ("C3", pytest.approx(15.5e-6 - 0.8 * 9.5e-6))
+    assert clearance_group(200e-3, 250e-3, "k6", "H7") is None
+
+
 def test_heat_that_is_not_known_takes_no_figure(machine: Machine) -> None:
     line = next(one for one in retention_lines(machine) if one.id == "RETENTION-AXIAL-PLAY")
     assert line.status == "unknown"
@@ -232,7 +270,10 @@ def test_bill_and_sheet_tell_the_shims(machine: Machine) -> None:
     assert rows["shaft shim"].designation == "DIN 988 - 16 x 22"
     assert rows["shaft shim"].fitting.startswith("one each of 0.1, 0.2, 0.3, 0.5 mm")
     assert "play is then 0.05 to 0.15 mm" in rows["shaft shim"].fitting
-    assert "play is then 0.02 to 0.12 mm" in fitting_notes(machine)["output shim"]
+    clamped = fitting_notes(machine)["output shim"]
+    assert "grind a pack to it, or up to 0.01 mm more: it clamps the split outer ring" in clamped
+    printed = resolve(load_design(DESIGNS / "printed-13.toml"))
+    assert "play is then 0.02 to 0.12 mm" in fitting_notes(printed)["output shim"]
     plays = AssemblyFacts(machine).plays()
     assert plays[0] == (
         "eccentric shaft in its bearings",

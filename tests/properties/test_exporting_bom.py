@@ -75,7 +75,7 @@ def test_columns_and_items(rows):
 
 def test_every_part_is_there_in_its_number(rows, parts):
     listed = {row["part"]: int(row["quantity"]) for row in rows}
-    beside = {"retaining compound": 1, "lubricant": 1}
+    beside = {"retaining compound": 1, "ring's compound": 1, "lubricant": 1}
     assert listed == {**{part.name: part.count for part in parts}, **beside}
     assert (listed["motor stator"], listed["motor rotor"]) == (1, 1)
     assert listed["disc"] == 2

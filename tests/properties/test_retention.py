@@ -68,11 +68,12 @@ def test_stops_and_plays_are_those_of_the_layout(machine: Machine) -> None:
     assert upper.up.play == pytest.approx(machine.layout.carrier.shaft_shim.play)
     assert rows["carrier plate"].up.by == rows["carrier plate"].down.by == "output bearing"
     assert (rows["ring"].up.by, rows["ring"].down.by) == ("ring clamp", "housing")
+    assert rows["ring"].up.play == pytest.approx(pack.ring_play)
     assert rows["disc 1"].down.by == "carrier cap"
     assert rows["disc 1"].down.play == pytest.approx(gap)
     assert rows["disc 2"].up.by == "carrier plate"
     dowels = machine.layout.dowels
-    loose = pack.top - dowels.bottom - dowels.length
+    loose = pack.top + pack.ring_play - dowels.bottom - dowels.length
     both = (rows["ring dowel"].up.play or 0.0) + (rows["ring dowel"].down.play or 0.0)
     assert both == pytest.approx(loose)
 

@@ -6,7 +6,8 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from cqdd_design.catalog.adhesives import ROTOR_COMPOUND
-from cqdd_design.catalog.bearings import find_bearing
+from cqdd_design.catalog.bearings import Bearing, find_bearing
+from cqdd_design.catalog.internal_clearance import clearance_group
 from cqdd_design.catalog.tightening import torque_words
 from cqdd_design.exporting.bill.known import catalogue_designations
 from cqdd_design.machine.screws import tightening_torques
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     from cqdd_design.solids.part import Part
 
 _SAME = 1e-7
-_MM = 1e3
+_MM, _UM = 1e3, 1e6
 
 
 def fitting_notes(machine: Machine) -> dict[str, str]:
@@ -59,11 +60,19 @@ def _shims(machine: Machine) -> dict[str, str]:
         name = "shaft shim" if stack.shims is machine.layout.carrier.shaft_shim else "output shim"
         least, most = (_MM * value for value in stack.play)
         room = " to ".join(f"{_MM * value:.2f}" for value in stack.worst)
+        told = (
+            f"take the thickest pack that leaves {least:.2f} mm: the play is then {least:.2f} to "
+            f"{most:.2f} mm"
+        )
+        if stack.clamped:
+            told = (
+                f"grind a pack to it, or up to {-least:.2f} mm more: it clamps the split outer "
+                "ring, whose halves play would let apart"
+            )
         notes[name] = (
             f"{stack.kit.told}: measure the parts' lengths singly before any is fitted, whose sum "
-            f"is the room, {room} mm, and take the thickest pack that leaves {least:.2f} mm: the "
-            f"play is then {least:.2f} to {most:.2f} mm; drawn {_MM * stack.shims.pack:g} mm; a "
-            "price is that of all of them"
+            f"is the room, {room} mm, and {told}; drawn {_MM * stack.shims.pack:g} mm; a price is "
+            "that of all of them"
         )
     return notes
 
@@ -77,8 +86,13 @@ def _bearings(machine: Machine, parts: dict[str, Part]) -> dict[str, str]:
             parts.values(),
             ("eccentric shaft", "disc"),
         )
-        + _on_loose_cam(machine, parts)
-        + _inner_rings(layout),
+        + _inner_rings(layout)
+        + _clearance(
+            layout.pack.cam.bearing,
+            (zones.LOBE, zones.DISC_BORE),
+            machine.design.reducer.cam_bearing.radial_clearance,
+        )
+        + _on_loose_cam(machine, parts),
         "shaft bearing": _seated(
             layout.shaft.support.bearing.bore_diameter,
             layout.shaft.support.bearing.outer_diameter,
@@ -86,15 +100,40 @@ def _bearings(machine: Machine, parts: dict[str, Part]) -> dict[str, str]:
             ("eccentric shaft", "housing", "carrier plate"),
         )
         + f"; the load turns with the shaft, so {ROTOR_COMPOUND.name} keeps the outer rings from "
-        "creeping in their seats",
+        "creeping in their seats"
+        + _clearance(layout.shaft.support.bearing, (zones.JOURNAL, zones.HOUSED)),
         "output bearing": _seated(
             layout.carrier.output.bearing.bore_diameter,
             layout.carrier.output.bearing.outer_diameter,
             parts.values(),
             ("carrier plate", "output cover"),
         )
-        + "; locked with the bearing nut",
+        + "; locked with the bearing nut"
+        + _clearance(layout.carrier.output.bearing, (zones.JOURNAL, zones.HOUSED)),
     }
+
+
+def _clearance(bearing: Bearing, seats: tuple[str, str], wanted: float | None = None) -> str:
+    """The clearance to order: of what a group has, its seats take a part.
+
+    Parameters
+    ----------
+    wanted : float or None
+        That the design counts with, m.
+    """
+    if bearing.kind == "crossed roller":
+        return "; clearance C0 or C1, not CC0, which is preloaded before its seats press it"
+    if bearing.kind != "ball":
+        return ""
+    found = clearance_group(bearing.bore_diameter, bearing.outer_diameter, *seats, wanted or 0.0)
+    if found is None:
+        return ""
+    counted = "" if wanted is None else f" (the design counts with {_UM * wanted:.3g})"
+    return (
+        f"; radial clearance {found.name}, {_UM * found.least:.0f} to {_UM * found.most:.0f} "
+        f"\u00b5m: its seats leave {_UM * found.left:.0f} \u00b1{_UM * found.spread:.0f} \u00b5m"
+        f"{counted}"
+    )
 
 
 def _inner_rings(layout: Layout) -> str:
