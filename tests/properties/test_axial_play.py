@@ -255,7 +255,7 @@ def test_counterbores_of_columns_are_those_of_din_974() -> None:
 
 def test_what_is_not_sealed_is_said(machine: Machine) -> None:
     """Gaps of 0.5 and 0.25 mm; only sealed bearings keep out more than coarse dust."""
-    assert sealing(machine).startswith("Gap seals, without friction: a gap of 0.5 mm, 1.4 mm long,")
+    assert sealing(machine).startswith("Gap seals, without friction: a gap of 0.5 mm, 1.5 mm long,")
     assert "one of 0.25 mm, 3.8 mm long, between shaft and housing" in sealing(machine)
     assert "Nothing keeps fine dust and water out" in sealing(machine)
     assert fitting_notes(machine)["output bearing"].endswith("open, not sealed")
