@@ -236,6 +236,26 @@ def test_friction_at_the_peak_torque_is_that_of_the_loss_model(name: str) -> Non
     )
 
 
+@pytest.mark.parametrize(("name", "torque"), [("wrist-15", None), ("plain-10", 0.5)])
+def test_what_drives_back_stays_below_the_knee(name: str, torque: float | None) -> None:
+    """Backdrive torques are those of the loss model, however small the continuous torque is."""
+    machine = gallery(name)
+    if torque is not None:
+        machine = machine.changed({"requirements.continuous_torque": torque})
+    one = actuator_parameters(machine)
+    motor, asked = one.motor, machine.design.requirements
+    back = machine.losses.backdrive(
+        film_speed=asked.input_speed,
+        shaft_running=motor.dry_drag,
+        shaft_resting=motor.dry_drag + motor.cogging_amplitude,
+    )
+    assert backdrive_static(one) == pytest.approx(back.static_torque, rel=5e-3)
+    assert backdrive_dynamic(one) == pytest.approx(back.dynamic_torque, rel=5e-3)
+    assert back.static_torque is not None
+    assert one.friction.load_knee >= back.static_torque
+    assert one.friction.load_growth > 0.0
+
+
 @given(st.floats(0.0, 30.0), st.floats(0.0, 2.0), st.floats(0.5, 100.0), st.floats(0.0, 5.0))
 @settings(max_examples=examples(50))
 def test_what_the_motor_gives_comes_out_as_it_went_in(

@@ -67,7 +67,13 @@ def test_unknowns_lie_in_ranges_of_this_motor(actuator: ActuatorParameters) -> N
     assert ranges["motor_viscous"][1] * idle == pytest.approx(0.2 * motor.rated_torque)
     most = ranges["friction_load"][1]
     holding = friction.load_backward * (1.0 + friction.stribeck_extra)
+    holding *= 1.0 + friction.load_growth
     assert most * holding == pytest.approx(0.9)
+    # Above a knee it is the steeper friction that holds.
+    steep = dataclasses.replace(friction, load_growth=1.0)
+    within = UNKNOWNS["friction_load"].bounds(dataclasses.replace(actuator, friction=steep))[1]
+    held = within * friction.load_backward * (1.0 + friction.stribeck_extra)
+    assert held * 2.0 == pytest.approx(0.9)
     assert ranges["current_loop"] == (0.01, 100.0)
     least, most = ranges["rig_stiffness"]
     assert least < UNKNOWNS["rig_stiffness"].start(actuator) < actuator.sensor_stiffness < most

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 import re
+import tomllib
 from datetime import UTC, datetime
 
 import numpy as np
@@ -16,7 +17,8 @@ from lxml import etree
 from solids_designs import MANY_POCKETS, machines
 
 from cqdd_design.catalog import find_material, materials
-from cqdd_design.design import load_design
+from cqdd_design.design import Design, load_design
+from cqdd_design.design.templates import example_text
 from cqdd_design.errors import CqddError, UsageError
 from cqdd_design.exporting import ExportOptions
 from cqdd_design.exporting.edm.cut_facts import facts_of, zone_text
@@ -75,6 +77,23 @@ def test_the_readme_answers_what_a_shop_asks(package):
     ):
         assert phrase in flowing
     assert max(map(len, text.splitlines())) <= 78
+
+
+def test_what_the_next_at_the_bench_needs_is_on_sheet_and_readme(paper, package, tmp_path):
+    """Where the cam bearing goes, edges above the corner of the seat, and which disc is which."""
+    text = " ".join(package["README.txt"].path.read_text().split())
+    assert "middle of the thickness, 0.50 +-0.05 mm below either face" in text
+    assert "Outer edges of both faces broken 0.3 to 0.5 mm at 45 deg before the teeth" in text
+    assert "Engrave" not in text
+    three = resolve(paper.replacing({"reducer.disc_count": 3}))
+    marks = [facts_of(flat, three).remarks[-1] for flat in flat_parts(three)]
+    assert sum(mark.startswith("Engrave 'disc ") for mark in marks) == len(marks) - 1 > 1
+    printed = Design.from_mapping(tomllib.loads(example_text("printed-13")))
+    export(printed, "edm", tmp_path)
+    (readme,) = tmp_path.rglob("README.txt")
+    said = " ".join(readme.read_text().split())
+    assert "NO WIRE CUTS disc (PC-CF FDM along layers) AND ring (PC-CF FDM along layers)" in said
+    assert "NO WIRE CUTS" not in text
 
 
 def test_discs_that_are_not_one_part_are_not_said_to_be(paper, tmp_path):

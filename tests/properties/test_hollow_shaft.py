@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -189,6 +190,31 @@ def test_a_hole_is_as_large_as_asked_while_a_wall_is_left(paper: Design) -> None
         "7.5 mm": (pytest.approx(7.5), "pass"),
         "8 mm": (pytest.approx(7.5), "fail"),
     }
+
+
+def test_a_bore_that_is_too_small_names_the_cam_bearing_that_leaves_it(paper: Design) -> None:
+    """The smallest that does; and how wide the widest leaves it where none does."""
+    line = bore_line(resolve(paper.replacing({"requirements.bore": "8 mm"})))
+    assert line is not None
+    named = re.search(
+        r"cam_bearing\.designation to '(\w+)', which leaves .* of (\S+) mm", line.remedy
+    )
+    assert named
+    wide = paper.replacing(
+        {"requirements.bore": "8 mm", "reducer.cam_bearing.designation": named[1]}
+    )
+    found = bore_line(resolve(wide))
+    assert found is not None
+    assert (found.status, found.value) == ("pass", pytest.approx(float(named[2])))
+    none = bore_line(resolve(paper.replacing({"requirements.bore": "13 mm"})))
+    assert none is not None
+    assert "no cam bearing that fits this disc leaves a hole of more than 12 mm" in none.remedy
+    most = paper.replacing(
+        {"requirements.bore": "12 mm", "reducer.cam_bearing.designation": "6704"}
+    )
+    reached = bore_line(resolve(most))
+    assert reached is not None
+    assert reached.status == "pass"
 
 
 def test_a_wider_hole_is_judged_by_the_shafts_own_lines(paper: Design) -> None:

@@ -217,12 +217,12 @@ def facts_of(flat: FlatPart, machine: Machine, options: ExportOptions = DEFAULTS
         passes=wire_passes(flat.contours, design.edm, options.passes),
         zones=zones_of(flat, design),
         seats=seats_of(flat),
-        fitting=tuple(_fitting(flat, machine)),
+        fitting=tuple(fitting(flat, machine)),
     )
 
 
-def _fitting(flat: FlatPart, machine: Machine) -> Iterator[str]:
-    """What the next who takes the part in hand has to know of it."""
+def fitting(flat: FlatPart, machine: Machine) -> Iterator[str]:
+    """Sentences on what the next who takes the part in hand has to know of it."""
     if flat.label == "ring":
         first = "" if made_how(flat.material, "") else " before the teeth are cut"
         yield (
@@ -238,8 +238,8 @@ def _fitting(flat: FlatPart, machine: Machine) -> Iterator[str]:
     )
     if flat.label != "disc":
         yield (
-            f"Engrave '{flat.label}' on the upper face: discs of this design differ in nothing "
-            "but in where their holes stand."
+            f"Engrave '{flat.label.replace('-', ' ')}' on the upper face: discs of this design "
+            "differ in nothing but in where their holes stand."
         )
 
 
