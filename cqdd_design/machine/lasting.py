@@ -7,8 +7,8 @@ other before any of them is too warm.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from dataclasses import replace
 from types import MappingProxyType
 
 from cqdd_design.errors import CatalogError, DesignError
@@ -16,6 +16,9 @@ from cqdd_design.gearbox.checks.allowables import BINDING_OVERLAP
 from cqdd_design.machine.cures import ROUGHLY, most_that_holds
 from cqdd_design.machine.machine import Machine
 from cqdd_design.machine.temperatures import MachineTemperatures, machine_temperatures
+
+_SLOWEST = math.pi / 30.0
+"""Motor speed that a design may state, rad/s: 1 rpm."""
 
 
 def lasting_torque(
@@ -94,10 +97,9 @@ def margin_of(held: MachineTemperatures, *, free: bool) -> float:
 def _turning(machine: Machine, speed: float) -> Machine:
     """The machine with its continuous torque at a speed of the motor, rad/s.
 
-    Slower too than a design may state: it may stand.
+    One that stands is looked at as turning as slowly as a design may state.
     """
-    asked = machine.design.requirements.unchecked_copy({"continuous_speed": speed})
-    other = replace(machine, design=machine.design.unchecked_copy({"requirements": asked}))
+    other = machine.changed({"requirements.continuous_speed": max(speed, _SLOWEST)})
     vars(other).update(contact=machine.contact, bodies=machine.bodies)
     return other
 
