@@ -75,6 +75,20 @@ def test_the_sheet_says_how_long_they_are() -> None:
     assert f"to {most:.3g} mm longer" in said
 
 
+def test_the_sheet_says_what_it_is_built_into() -> None:
+    """Circles of the screws on both sides, and the greatest sizes of all pieces as placed."""
+    machine = drawn("cqdd-10")
+    housing, carrier = machine.layout.housing, machine.layout.carrier
+    (said,) = (one for one in AssemblyFacts(machine).notes() if one.startswith("Overall"))
+    assert f"8 \u00d7 M4 on \u00d8{2e3 * housing.bolt_circle_radius:.4g}" in said
+    assert f"output 6 \u00d7 M4 on \u00d8{2e3 * carrier.bolt_circle_radius:.4g}" in said
+    motor = machine.motor
+    assert motor.outer_diameter is not None
+    # The can of the motor is the widest; its cover adds a wall to either side.
+    wide = float(said.split("\u00d8")[1].split()[0])
+    assert 1e3 * motor.outer_diameter < wide < 1e3 * motor.outer_diameter + 15.0
+
+
 def test_a_joint_is_fixed_as_its_thread_bears_it() -> None:
     """Into 1 mm of aluminium a screw is not drawn as firmly as it could be."""
     machine = drawn("reference-s")

@@ -18,14 +18,16 @@ from cqdd_design.machine.screws import tightened_screws
 from cqdd_design.machine.sealing import sealing
 from cqdd_design.machine.set_heights import set_heights
 from cqdd_design.solids.apart import Step, taken_apart, unit_name
-from cqdd_design.solids.features.carrier import OUTPUT_REGISTER
+from cqdd_design.solids.features.carrier import OUTPUT_BOLTS, OUTPUT_REGISTER
 from cqdd_design.solids.features.kinds import AxialThread, Joint, Seat
+from cqdd_design.solids.part import overall_size
 from cqdd_design.solids.tool_access import reaches
 
 if TYPE_CHECKING:
     from cqdd_design.machine import Machine
     from cqdd_design.solids.stations import Station
 
+_MM = 1e3
 _RUN_OUT = "0.2"
 """Circular run-out of class K (ISO 2768-2), mm."""
 _SIDES = {"up": "from the output side", "down": "from the motor side"}
@@ -111,7 +113,7 @@ class AssemblyFacts:
         said += set_heights(self.machine)
         said.append(self._nut())
         said += [sealing(self.machine), centring(self.machine)]
-        said += [self.driven(), self.mounting()]
+        said += [self.interfaces(), self.driven(), self.mounting()]
         said.append(
             f"Turned by hand, the output's face and seat run true to the housing within {_RUN_OUT} "
             "mm (ISO 2768-K); the parts' own run-outs stand on their sheets."
@@ -141,6 +143,24 @@ class AssemblyFacts:
         if not self.machine.layout.carrier.flange_dowels.count:
             return f"{by_spigot}."
         return f"{by_spigot}, or by the dowels of the output's face: the other needs play then."
+
+    def interfaces(self) -> str:
+        """Sizes that what it is built into has to know."""
+        housing, carrier = self.machine.layout.housing, self.machine.layout.carrier
+        diameter, length = overall_size(self.parts)
+        output = "no thread in the output's face"
+        if carrier.bolt_thread:
+            output = (
+                f"output {OUTPUT_BOLTS} \u00d7 M{_MM * carrier.bolt_thread:g} on "
+                f"\u00d8{2.0 * _MM * carrier.bolt_circle_radius:.4g}"
+            )
+        return (
+            f"Overall \u00d8{_MM * diameter:.4g} \u00d7 {_MM * length:.4g} mm. Fixed by "
+            f"{housing.screw_count} \u00d7 M{_MM * housing.mount_thread:g} on "
+            f"\u00d8{2.0 * _MM * housing.bolt_circle_radius:.4g}, between the cover's screws, "
+            f"whose heads stand {_MM * housing.screw.head_height:.3g} mm above its flange and "
+            f"need room there; {output}."
+        )
 
     def mounting(self) -> str:
         """How the machine is fixed to another, and how long the screws may be."""
