@@ -232,6 +232,13 @@ class Machine:
         return axial_stacks(self.parts, self.layout)
 
     @cached_property
+    def told_stacks(self) -> tuple[AxialStack, ...]:
+        """The same, and the ring's under its clamp, which has play by rule; GeometryError too."""
+        from cqdd_design.solids.axial import ring_stack
+
+        return (*self.axial_stacks, ring_stack(self.parts))
+
+    @cached_property
     def inertia(self) -> GearboxInertia:
         """Mass properties of the parts in closed form."""
         from cqdd_design.solids.inertia import closed_form, gearbox_inertia

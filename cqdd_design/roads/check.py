@@ -89,7 +89,7 @@ class Judgement:
     def _axial_play(self) -> list[dict[str, object]]:
         """The stacks of axial play; empty where nothing can be laid out."""
         try:
-            stacks = self.verdict.evidence.machine.axial_stacks
+            stacks = self.verdict.evidence.machine.told_stacks
         except DesignError:
             return []
         return [one.to_dict() for one in stacks]

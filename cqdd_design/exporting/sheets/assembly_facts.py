@@ -97,7 +97,7 @@ class AssemblyFacts:
                 "none" if one.packs is None else _span(one.packs),
                 _span(one.play),
             )
-            for one in self.machine.axial_stacks
+            for one in self.machine.told_stacks
         ]
 
     def notes(self) -> list[str]:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 def axial_view(machine: Machine, warm: MachineTemperatures | None) -> Values | None:
     """Rows of the plays, and a table of lengths for each; None where nothing can be laid out."""
     try:
-        stacks = machine.axial_stacks
+        stacks = machine.told_stacks
     except DesignError:
         return None
     return {
