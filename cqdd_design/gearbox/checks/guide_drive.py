@@ -74,7 +74,8 @@ ROWS = (
         "min",
         "least of driver, voltage and motor's peak torque at rest, after friction >= peak torque",
         "The motor has to reach the peak torque through the gearbox, about to turn against its "
-        f"friction, which is kept at the continuous and at the peak torque. {_SCREENED}",
+        "friction, which is kept at the continuous and at the peak torque that are asked for, and "
+        f"beyond that goes on growing as up to it. {_SCREENED}",
         _EFFICIENCY,
         basis=_SCREEN,
     ),
