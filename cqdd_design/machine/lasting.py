@@ -82,8 +82,8 @@ def lasting_speed(machine: Machine, most: float, *, free: bool = True) -> float:
 def margin_of(held: MachineTemperatures, *, free: bool) -> float:
     """Rise that parts bear over that which they have; 0 where it is not known.
 
-    Or what they may press on each other over how much they do, where they have to be free and that
-    is less.
+    Or, where they have to be free and that is less, the root of what they may press on each other
+    over what they do: as a margin that falls about as fast as the other.
     """
     if held.cold:
         return 0.0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
@@ -25,8 +26,9 @@ from cqdd_design.actuator import transmission as transmissions
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.demands import demands
 from cqdd_design.actuator.friction import friction_parameters
-from cqdd_design.actuator.joint_side import backdrive_dynamic, backdrive_static
+from cqdd_design.actuator.joint_side import backdrive_dynamic, backdrive_static, joint_side
 from cqdd_design.actuator.load_friction import load_friction
+from cqdd_design.actuator.motor import torque_constant_at
 from cqdd_design.actuator.packing import gear_table, kinematic_error, stiffness_share
 from cqdd_design.actuator.parameters import (
     ActuatorParameters,
@@ -46,6 +48,7 @@ from cqdd_design.gearbox.contact.sweep import contact_sweep, output_turn_angles
 from cqdd_design.gearbox.losses import LossModel
 from cqdd_design.gearbox.tolerance.draws import draw_errors
 from cqdd_design.machine import Machine, resolve
+from cqdd_design.roads.export import left_out
 
 PAPER = load_design(Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml")
 MOTOR = MotorParameters(0.1736, 0.143, 137e-6, 5.6e-4, 21, 4.0, 12.0, iron_loss=1e-4)
@@ -254,6 +257,32 @@ def test_what_drives_back_stays_below_the_knee(name: str, torque: float | None) 
     assert back.static_torque is not None
     assert one.friction.load_knee >= back.static_torque
     assert one.friction.load_growth > 0.0
+
+
+def test_simulators_are_told_what_the_gearbox_does_not_carry() -> None:
+    """As an audit found: 68 N m allowed where the cam bearing's static rating is 41."""
+    design = gallery("efficient-10").given
+    (said,) = left_out(design, "urdf,card")
+    assert re.match(r"urdf, card: motor and drive give up to 6\d\.\d N\*m, the effort limit", said)
+    assert "does not carry it: static rating of the cam bearing from 41.3 N*m" in said
+    assert left_out(design, "dxf") == ()
+    # Where it carries all that they give, nothing is said.
+    assert left_out(gallery("plain-10").given, "urdf") == ()
+
+
+def test_what_is_held_for_ever_is_no_more_than_the_drive_gives() -> None:
+    one = built()
+    whole = joint_side(one)
+    weak = replace(one, drive=replace(one.drive, current_limit=5.0))
+    side = joint_side(weak)
+    assert side.continuous_torque < side.peak_torque < whole.continuous_torque
+    # Magnets are warm where it is held for ever.
+    hot = torque_constant_at(one.motor, one.thermal.most) / one.motor.torque_constant
+    assert side.continuous_torque == pytest.approx(hot * side.peak_torque)
+    for speed in (0.0, 2.0):
+        assert operating.lasting_torque(weak, speed) <= side.peak_torque
+        held = float(operating.held_torque(one, speed)[0])
+        assert operating.lasting_torque(one, speed) == pytest.approx(held)
 
 
 @given(st.floats(0.0, 30.0), st.floats(0.0, 2.0), st.floats(0.5, 100.0), st.floats(0.0, 5.0))

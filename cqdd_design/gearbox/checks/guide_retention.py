@@ -34,7 +34,8 @@ ROWS = (
         "min",
         "play of shaft, output bearing and discs, lengths of the parts at their worst limits, "
         "shims chosen from their set, from the coldest start to settled temperatures >= 0; "
-        "negative too where the thickest pack falls short",
+        "negative too where the thickest pack falls short; a pack that clamps crossed rollers has "
+        "but to be thick enough",
         "Bearings that are pressed along the axis run hot and fail; play that no shim takes up "
         "lets shaft and output knock.",
         "the parts as drawn, cqdd_design.solids.axial; ISO 492, ISO 2768-1, DIN 988",
