@@ -86,7 +86,7 @@ def test_what_the_next_at_the_bench_needs_is_on_sheet_and_readme(paper, package,
     assert "Outer edges of both faces broken 0.3 to 0.5 mm at 45 deg before the teeth" in text
     assert "Engrave" not in text
     three = resolve(paper.replacing({"reducer.disc_count": 3}))
-    marks = [facts_of(flat, three).remarks[-1] for flat in flat_parts(three)]
+    marks = [facts_of(flat, three).fitting[-1] for flat in flat_parts(three)]
     assert sum(mark.startswith("Engrave 'disc ") for mark in marks) == len(marks) - 1 > 1
     printed = Design.from_mapping(tomllib.loads(example_text("printed-13")))
     export(printed, "edm", tmp_path)

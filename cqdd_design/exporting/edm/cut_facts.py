@@ -137,9 +137,8 @@ class CutFacts:
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """Remarks of the part and on its fitting, as sentences."""
-        told = tuple(f"{one[0].upper()}{one[1:]}." for one in said(self.flat.remarks))
-        return (*told, *self.fitting)
+        """Remarks of the part as sentences."""
+        return tuple(f"{one[0].upper()}{one[1:]}." for one in said(self.flat.remarks))
 
     @property
     def seat_by_contour(self) -> dict[int, Seat]:
@@ -217,11 +216,11 @@ def facts_of(flat: FlatPart, machine: Machine, options: ExportOptions = DEFAULTS
         passes=wire_passes(flat.contours, design.edm, options.passes),
         zones=zones_of(flat, design),
         seats=seats_of(flat),
-        fitting=tuple(fitting(flat, machine)),
+        fitting=tuple(_fitting(flat, machine)),
     )
 
 
-def fitting(flat: FlatPart, machine: Machine) -> Iterator[str]:
+def _fitting(flat: FlatPart, machine: Machine) -> Iterator[str]:
     """Sentences on what the next who takes the part in hand has to know of it."""
     if flat.label == "ring":
         first = "" if made_how(flat.material, "") else " before the teeth are cut"

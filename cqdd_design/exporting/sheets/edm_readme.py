@@ -154,6 +154,7 @@ def _part_lines(parts: Sequence[CutFacts]) -> list[str]:
                 f"{1e3 * facts.mass:.1f} g each.",
                 f"Material {flat.material}: {facts.heat_treatment}; hardness {facts.hardness}.",
                 *facts.remarks,
+                *facts.fitting,
                 f"Contour as written, read back and measured: {facts.fit_text[0]}; "
                 f"{facts.fit_text[1]}.",
             ],

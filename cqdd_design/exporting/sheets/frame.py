@@ -148,6 +148,7 @@ def _moulded_notes(facts: CutFacts) -> list[str]:
     name = facts.design.file_name
     return [
         *facts.remarks,
+        *facts.fitting,
         f"{facts.moulded.capitalize().replace('fdm', 'FDM')}: from the files of "
         f"`export --to print`, which are larger by what it shrinks; contours of {name}-"
         f"{facts.flat.label}.dxf are those of the finished part.",
@@ -175,6 +176,7 @@ def _cut_notes(facts: CutFacts) -> list[str]:
     offset = _MM * edm.wire_offset
     said = [
         *facts.remarks,
+        *facts.fitting,
         _curve(facts),
         f"Cut from the file {facts.design.file_name}-{flat.label}.dxf, layers CUT_OUTER and "
         "CUT_INNER: nominal finished contour without kerf offset. WIRE_PATH is the centre of the "

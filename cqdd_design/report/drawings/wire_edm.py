@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
-from cqdd_design.exporting.edm.cut_facts import fitting, said
+from cqdd_design.exporting.edm.cut_facts import said
 from cqdd_design.exporting.edm.dxf import contour_fit
 from cqdd_design.exporting.edm.flat_parts import FlatPart, flat_parts
 from cqdd_design.machine import Machine
@@ -23,15 +22,9 @@ def edm_view(machine: Machine) -> Values:
         "beside it. Every file is read back from disk and measured so before it gets its name.",
         "rows": tuple(_row(flat) for flat in flats),
         "remarks": tuple(
-            f"{flat.label}: {remark}" for flat in flats for remark in _remarks(flat, machine)
+            f"{flat.label}: {remark}" for flat in flats for remark in said(flat.remarks)
         ),
     }
-
-
-def _remarks(flat: FlatPart, machine: Machine) -> Iterator[str]:
-    yield from said(flat.remarks)
-    for one in fitting(flat, machine):
-        yield f"{one[0].lower()}{one[1:].removesuffix('.')}"
 
 
 def _row(flat: FlatPart) -> tuple[str, ...]:
