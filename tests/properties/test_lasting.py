@@ -42,7 +42,7 @@ def cool(
     return all(line.known and line.status == "pass" for line in every)
 
 
-@pytest.mark.parametrize("key", ["cqdd", "plastics"])
+@pytest.mark.parametrize("key", [pytest.param("cqdd", marks=pytest.mark.deep), "plastics"])
 def test_a_torque_that_lasts_is_the_greatest(key: str, machines: dict[str, Machine]) -> None:
     machine = machines[key]
     speed = machine.design.requirements.held_speed
@@ -62,6 +62,7 @@ def test_a_torque_that_lasts_is_the_greatest(key: str, machines: dict[str, Machi
     assert lasting_torque(machine, 0.9 * found, speed) == 0.9 * found
 
 
+@pytest.mark.deep
 def test_a_speed_that_lasts_is_the_greatest(machines: dict[str, Machine]) -> None:
     machine = machines["cqdd"].changed({"requirements.continuous_torque": 9.0})
     fastest = machine.design.requirements.input_speed
@@ -99,6 +100,7 @@ def test_the_verdict_promises_no_torque_that_its_heat_forbids(hot: Verdict) -> N
     assert cool(hot.evidence.machine, asked, float(slower[1]) / RPM, free=True)
 
 
+@pytest.mark.deep
 def test_what_is_held_does_not_grow_with_what_is_asked(machines: dict[str, Machine]) -> None:
     """As a review found: 7 N m told where parts press from 2.8 on, asked for 4 that are cool."""
     told = []
