@@ -103,6 +103,11 @@ def test_what_is_no_duty_is_a_sentence_with_line_and_column(tmp_path, text, says
     assert "\n" not in caught.value.message
 
 
+def test_a_torque_held_at_rest_is_a_duty_and_so_is_turning_without_one(tmp_path):
+    for row in ("0,3,0", "0,0,2"):
+        assert read_duty(written(tmp_path, f"{HEAD}\n{row}\n1,0,0\n")).rows == 2
+
+
 def test_columns_that_are_not_there_and_units_said_twice(tmp_path):
     path = written(tmp_path, f"{HEAD}\n0,1,2\n1,1,2\n")
     with pytest.raises(DesignError, match=r"no column 'tork' for torque.*it has time"):
