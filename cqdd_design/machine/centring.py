@@ -70,9 +70,11 @@ def most_reading(machine: Machine) -> float:
 
 def centring(machine: Machine) -> str:
     """How clamp, cover and output are centred; GeometryError as :func:`most_off_centre`."""
-    off, depth = most_off_centre(machine), 1e3 * machine.layout.housing.spigot
+    off, seats = most_off_centre(machine), _seats(machine)
+    into = (seats["ring clamp", spigot] for _, _, spigot in _FITS)
+    depths = " and ".join(f"{1e3 * (one.top - one.bottom):.2g}" for one in into)
     fit = (
-        f"Spigots of the ring clamp, {depth:.2g} mm deep and {zones.SPIGOT} in {zones.HOUSED}, "
+        f"Spigots of the ring clamp, {depths} mm deep and {zones.SPIGOT} in {zones.HOUSED}, "
         "centre it in the housing and the output cover on it"
     )
     zone, reading = machine.given.tolerances.output_zone, most_reading(machine)

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from cqdd_design.machine.machine import Machine
     from cqdd_design.solids.motor_layout import MotorEnd
 
-_MM = 1e3
+_MM, _SAME = 1e3, 1e-7
 _SET_WITHIN = 0.1
 """What a height gauge on a surface plate sets while a bond cures, to either side, mm."""
 _FACE = "the housing's face for the motor cover"
@@ -66,7 +66,7 @@ def _encoder(machine: Machine, motor: MotorEnd) -> str:
 def _other_magnet(motor: MotorEnd, sensor: EncoderSensor | None) -> str:
     """Where the sensor's gap is stated for another magnet than that which the shaft takes."""
     size = (2.0 * motor.magnet_radius, motor.magnet_height)
-    if sensor is None or sensor.least_gap is None or sensor.magnet_diameter == size[0]:
+    if sensor is None or abs(sensor.magnet_diameter - size[0]) < _SAME:
         return ""
     told = f"{_MM * sensor.magnet_diameter:g} x {_MM * sensor.magnet_height:g} mm"
     return (

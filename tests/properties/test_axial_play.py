@@ -17,6 +17,7 @@ from cqdd_design.exporting.bill.fitting import fitting_notes
 from cqdd_design.exporting.sheets.assembly_facts import AssemblyFacts
 from cqdd_design.exporting.solids.bom import bill_of_materials
 from cqdd_design.machine import Machine, resolve
+from cqdd_design.machine.centring import centring
 from cqdd_design.machine.heat_nodes import NODES
 from cqdd_design.machine.ring_seating import ring_seating
 from cqdd_design.machine.sealing import sealing
@@ -172,8 +173,19 @@ def test_the_clamp_rests_on_the_housing_and_never_on_the_ring(
     assert stack.play[1] - stack.play[0] == pytest.approx(
         sum(one.upper - one.lower for one in stack.lengths)
     )
+    # As deep in the housing as its sheet says, less than in the cover by the play.
+    lower, upper = (1e3 * one for one in _spigots(machine))
+    assert f"Spigots of the ring clamp, {lower:.2g} and {upper:.2g} mm deep" in centring(machine)
+    assert upper - lower == pytest.approx(1e3 * stack.nominal)
     said = next(one for one in AssemblyFacts(machine).notes() if one.startswith("Ring: "))
     assert f"leaves it {1e3 * stack.play[0]:.2f} to {1e3 * stack.play[1]:.2f} mm" in said
+
+
+def _spigots(machine: Machine) -> tuple[float, float]:
+    """How deep the clamp reaches into housing and cover, from its shape."""
+    clamp = next(part for part in machine.parts if part.name == "ring clamp")
+    housing = machine.layout.housing
+    return housing.face - clamp.shape.bottom, clamp.shape.top - housing.cover_bottom
 
 
 def test_a_warm_housing_takes_the_ring_without_force(machine: Machine) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 import pytest
 
@@ -118,6 +119,14 @@ def test_rotor_and_magnet_are_set_from_a_face_that_both_sheets_have(
 
 def test_a_motor_that_is_not_drawn_has_nothing_to_set(paper: Design) -> None:
     assert set_heights(resolve(paper.replacing({"motor": {"name": "CubeMars R100 KV90"}}))) == []
+
+
+def test_a_gap_that_is_stated_for_another_magnet_is_said_to_be(paper: Design) -> None:
+    """6 x 2.5 mm is what the sensor is made for; a thinner stub takes 4 x 2."""
+    assert "That gap is for a magnet" not in set_heights(resolve(paper))[1]
+    path = Path(__file__).resolve().parents[2] / "designs" / "printed-13.toml"
+    said = set_heights(resolve(load_design(path)))[1]
+    assert "for a magnet of 6 x 2.5 mm, this one is 4 x 2 mm: let the field" in said
 
 
 def test_the_bearing_nut_is_tightened_and_locked(paper: Design) -> None:

@@ -61,8 +61,8 @@ class Unknown:
             return least * scale, most * scale
         if "load_backward" in self.names:
             friction = parameters.friction
-            holding = friction.load_backward * (1.0 + friction.stribeck_extra)
-            holding *= 1.0 + friction.load_growth
+            share = friction.load_backward * (1.0 + friction.load_growth)
+            holding = share * (1.0 + friction.stribeck_extra)
             most = max(min(most, _HELD / holding if holding > 0.0 else most), 2.0 * least)
         return least, most
 
