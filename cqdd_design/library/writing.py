@@ -37,7 +37,8 @@ class Exported(Result):
         return f"{len(self.files)} files"
 
     def _figures(self) -> tuple[str, ...]:
-        return tuple(f"{one.path} ({one.kind}, {one.bytes:,} bytes)" for one in self.files)
+        files = (f"{one.path} ({one.kind}, {one.bytes:,} bytes)" for one in self.files)
+        return (*files, *(f"warning: {one}" for one in self.warnings))
 
     def _results(self) -> Mapping[str, Any]:
         return {"kinds": list(self.kinds)}
@@ -49,7 +50,10 @@ class Exported(Result):
         from cqdd_design.report.notebook import table
 
         rows = [(str(one.path), one.kind, f"{one.bytes:,}") for one in self.files]
-        return (table("Files", ("File", "Kind", "#Bytes"), rows),)
+        files = table("Files", ("File", "Kind", "#Bytes"), rows)
+        if not self.warnings:
+            return (files,)
+        return table("What to know of them", ("Warning",), [(one,) for one in self.warnings]), files
 
 
 @road

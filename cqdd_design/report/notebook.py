@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
+from markupsafe import Markup
+
 from cqdd_design.machine import resolve
 from cqdd_design.report.drawings.front_view import front_view
 from cqdd_design.report.drawings.outlines import Outlines
@@ -69,6 +71,9 @@ def notebook_page(
         "front_view": front_view(outlines_of(resolve(design))),
         "sections": tuple(one.template for one in sections),
     }
-    for one in sections:
-        context |= one.values
-    return environment().get_template("notebook.html").render(context)
+    every = environment()
+    # Each with its own values: two tables are of one template.
+    chapters = [
+        Markup(every.get_template(one.template).render(context | one.values)) for one in sections
+    ]
+    return every.get_template("notebook.html").render(context | {"chapters": chapters})

@@ -20,6 +20,7 @@ from cqdd_design.solids.counterweights import NAMES as WEIGHTS
 from cqdd_design.solids.features.zones import DISC_BORE, PRESSED_CAM
 from cqdd_design.solids.layout import Layout
 from cqdd_design.solids.part import Instance, Part
+from cqdd_design.solids.shoulder_room import sure_face
 from cqdd_design.solids.stations import Span, Station, ring_of, stations
 
 UP, DOWN = "up", "down"
@@ -83,11 +84,14 @@ class Stop:
         Gap to it, m; 0 where fastened, None where nothing holds.
     face : float
         Width of the faces that meet, m; 0 where fastened or free.
+    sure : float
+        The same at the limits and with the broken edges of what holds, m; of bearings alone.
     """
 
     by: str
     play: float | None
     face: float = 0.0
+    sure: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -197,6 +201,8 @@ def _stops(
 ) -> Iterator[tuple[int, Stop]]:
     """Stations whose faces stop a station, with gap and width."""
     floats = any(word in every[i].part.name for word in _ROLLING)
+    seats = every[i].part.name in _GUIDED and not every[i].off_axis
+    bore = min(span.inner for span in every[i].spans)
     for j, other in enumerate(every):
         if i == j or not _may_touch(every[i], other):
             continue
@@ -210,7 +216,13 @@ def _stops(
                 if best is not None and gap >= (best.play or 0.0):
                     continue
                 if _meet(every[i], mine, other, its):
-                    best = Stop(other.name, max(gap, 0.0), face)
+                    sure = 0.0
+                    if seats:
+                        inside = mine.inner <= bore + _TOUCHING
+                        sure = sure_face(
+                            other.part, its, mine, facing_up=not upward, inner_ring=inside
+                        )
+                    best = Stop(other.name, max(gap, 0.0), face, sure)
         if best is not None:
             yield j, best
 

@@ -15,6 +15,8 @@ from cqdd_design.catalog.bearings import BEARING_MATERIAL, Bearing, bearings
 from cqdd_design.catalog.cap_screws import cap_screw_mass
 from cqdd_design.catalog.screws import ShoulderScrew, find_shoulder_screw, mean_pin_diameter
 from cqdd_design.errors import CatalogError, GeometryError
+from cqdd_design.solids.features.edges import FACE_SHARE
+from cqdd_design.solids.features.making import SHAFT_RIM
 
 RING_SHARE = 0.3
 """Height of a bearing's ring as a share of its radial section, for shoulders and envelopes."""
@@ -127,7 +129,7 @@ def support_bearing(
         and row.bore_diameter <= most_bore - least_step + 1e-9
         and row.outer_diameter <= most_outer_diameter + 1e-9
         and row.width <= 0.9 * row.bore_diameter
-        and row.bore_diameter <= most_bore - 2.0 * row.largest_chamfer + 1e-9
+        and row.bore_diameter <= most_bore - 2.0 * _least_shoulder(row.largest_chamfer) + 1e-9
     ]
     fitting = [r for r in fitting if r.outer_diameter <= nested_diameter + 1e-9] or fitting
     if fitting:
@@ -141,6 +143,11 @@ def support_bearing(
     width = 0.6 * bore
     name = f"bush {bore * 1e3:.3g} x {outer * 1e3:.3g} x {width * 1e3:.3g} mm"
     return _made(name, bore, outer, width, "bush")
+
+
+def _least_shoulder(chamfer: float) -> float:
+    """Height of a shaft's shoulder that reaches past a chamfer (m) at its limits, m."""
+    return (chamfer + 0.5 * SHAFT_RIM) / (1.0 - FACE_SHARE)
 
 
 class Room(NamedTuple):

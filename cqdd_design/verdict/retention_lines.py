@@ -69,13 +69,14 @@ def _shoulder(table: tuple[Retained, ...]) -> Check:
     if not every:
         told = "no bearing stands on a shoulder"
         return build_check("RETENTION-SHOULDER", None, None, told, "see RETENTION-HELD")
-    bearing, row, stop = min(every, key=lambda one: one[2].face / one[0].largest_chamfer)
+    bearing, row, stop = min(every, key=lambda one: one[2].sure / one[0].largest_chamfer)
     least, largest = bearing.largest_fillet, bearing.largest_chamfer
     return build_check(
         "RETENTION-SHOULDER",
-        stop.face / least,
+        stop.sure / least,
         largest / least,
-        f"{row.name} on {stop.by}: {1e3 * stop.face:.3g} mm; chamfer of the {bearing.designation} "
+        f"{row.name} on {stop.by}: {1e3 * stop.face:.3g} mm as drawn, {1e3 * stop.sure:.3g} mm at "
+        f"the limits of its diameter and edge; chamfer of the {bearing.designation} "
         f"{1e3 * least:.3g} to {1e3 * largest:.3g} mm",
         "a cam bearing with a larger bore, or less eccentricity, leaves higher shoulders",
     )

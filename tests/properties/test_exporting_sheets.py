@@ -209,6 +209,9 @@ def check_part(part, texts):
                 assert has_text(texts, r"^(-?[\d.]+)$", free(feature.height - origin)), feature
             if feature.refers:
                 assert has_frame(texts, feature.run_out, feature.refers), feature
+            if feature.rim:
+                pattern = rf"^\u00d8{NUMBER} \(0/-{NUMBER}\)$"
+                assert has_text(texts, pattern, 2.0 * feature.outer, feature.rim), feature
         elif isinstance(feature, Chamfer):
             key = (round(feature.width, 9), round(math.degrees(feature.angle), 6))
             chamfers[key] = chamfers.get(key, 0) + len(feature.centres)

@@ -387,6 +387,14 @@ def shown_page(found):
     return html.unescape(re.search(r'srcdoc="([^"]*)"', found._repr_html_())[1])
 
 
+def test_an_export_tells_what_its_files_allow_and_the_gearbox_does_not_carry(tmp_path):
+    found = cq.export("cqdd-10", "urdf", out=tmp_path)
+    (warning,) = found.warnings
+    assert "the effort limit in these files; the gearbox does not carry it" in warning
+    assert repr(found).splitlines()[-1] == f"  warning: {warning}"
+    assert "the gearbox does not carry it" in shown_page(found)
+
+
 def test_a_notebook_has_words_and_units_where_the_document_has_keys():
     from cqdd_design.actuator.columns import SUMMARY
 

@@ -256,7 +256,12 @@ class SectionPlan:
         return found
 
     def _way(self, body: Cylinder) -> str:
-        """Limits of a bore that general tolerances would let be less than what is asked for."""
+        """Limits of a shoulder's edge, or of a bore that would else be less than what is asked for."""
+        for face in self.shape.facts.part.features:
+            if not isinstance(face, Shoulder):
+                continue
+            if face.rim and not body.inside and abs(face.outer - body.radius) < SAME:
+                return f" (0/-{free_mm(face.rim)})"
         asked, size = self.shape.facts.design.requirements.bore, 2.0 * body.radius
         if asked is None or not body.inside or body.centre:
             return ""

@@ -9,6 +9,7 @@ from cqdd_design.exporting.sheets.canvas import sheet_date
 from cqdd_design.exporting.sheets.drawing import OUTLINE, SMALL, SheetDrawing
 from cqdd_design.exporting.sheets.formats import BOTTOM, LEFT, TITLE_WIDTH, scale_words
 from cqdd_design.exporting.sheets.lettering import text_width
+from cqdd_design.solids.features.edges import BROKEN_EDGE
 from cqdd_design.version import __version__
 
 if TYPE_CHECKING:
@@ -18,7 +19,7 @@ ROW, HEAD = 8.0, 15.0
 """Heights in the title block, mm."""
 SCALES = (20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02)
 """ISO 5455."""
-OUTER_EDGE, INNER_EDGE = "-0.3", "+0.3"
+OUTER_EDGE, INNER_EDGE = f"-{1e3 * BROKEN_EDGE:g}", "+0.3"
 """Edges without an indication of their own (ISO 13715): outside ones lose 0.3 mm at most and carry
 no burr, inside ones keep 0.3 mm at most."""
 

@@ -31,6 +31,8 @@ if TYPE_CHECKING:
     from cqdd_design.solids.features.holes import Centre, Facing
     from cqdd_design.solids.part import Part
 
+_RIM = 0.3e-3
+"""How far from its face a shoulder's cylinder is looked for, m."""
 _NEAR = 0.03
 """By how much a face may lie off the nominal size, mm: some parts are drawn at their mean."""
 
@@ -170,6 +172,8 @@ def _is_shoulder(face: Any, shoulder: Shoulder, facing: Facing) -> bool:
 
 def _sizes(part: Part, solid: _Faces) -> Iterator[Size]:
     for feature in part.features:
+        if isinstance(feature, Shoulder) and feature.rim:
+            yield Size(2.0 * MM * feature.outer, -MM * feature.rim, 0.0, _rim(feature, solid))
         if not isinstance(feature, Seat | FittedHole):
             continue
         try:
@@ -179,6 +183,13 @@ def _sizes(part: Part, solid: _Faces) -> Iterator[Size]:
         yield Size(
             MM * feature.diameter, MM * limits.lower, MM * limits.upper, _round(feature, solid)
         )
+
+
+def _rim(shoulder: Shoulder, solid: _Faces) -> tuple[Any, ...]:
+    """The cylinder that ends in a shoulder's edge, below its chamfer."""
+    into = _RIM if shoulder.facing == "down" else -_RIM
+    low, high = sorted((shoulder.height, shoulder.height + into))
+    return solid.cylinders(2.0 * shoulder.outer, low, high, (ON_AXIS,))
 
 
 def _round(feature: Seat | FittedHole | CutHole, solid: _Faces) -> tuple[Any, ...]:

@@ -16,11 +16,13 @@ from cqdd_design.solids.features.holes import Facing
 from cqdd_design.solids.features.kinds import Chamfer, Seat
 from cqdd_design.solids.layers import Layer, Stack
 
+BROKEN_EDGE = 0.3e-3
+"""What an edge without an indication of its own loses at most, m: the title block's ISO 13715."""
 _SERIES = (1.0e-3, 0.8e-3, 0.5e-3, 0.3e-3, 0.2e-3, 0.1e-3)
 _BY_DIAMETER = ((6e-3, 0.3e-3), (20e-3, 0.5e-3), (60e-3, 0.8e-3))
 _LARGEST = 1.0e-3
 """Width of the chamfers of edges up to a diameter, and beyond, m."""
-_FACE_SHARE, _LENGTH_SHARE = 0.15, 0.25
+FACE_SHARE, _LENGTH_SHARE = 0.15, 0.25
 """Most of the face and of the cylinder beside an edge that its chamfer takes."""
 _SAME = 1e-9
 _HOLE_GAP = 0.05e-3
@@ -155,7 +157,7 @@ def _width(
         face = min(face, room)
     cylinder = _cylinder(layer, at, inside, facing, every)
     length = math.fsum(one.top - one.bottom for one in cylinder)
-    most = min(chamfer_width(2.0 * at.radius), widest, _FACE_SHARE * face, _LENGTH_SHARE * length)
+    most = min(chamfer_width(2.0 * at.radius), widest, FACE_SHARE * face, _LENGTH_SHARE * length)
     for one in cylinder:
         # At 45 degrees a chamfer is narrower by as much as a hole lies below its face.
         deep = height - one.top if facing == "up" else one.bottom - height

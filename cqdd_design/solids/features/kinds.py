@@ -116,6 +116,9 @@ class Shoulder:
         Letters; see the module.
     along : float
         Of its height, to either side, m; 0 where the general tolerance holds.
+    rim : float
+        By how much its diameter may be smaller, and not larger, m; 0 where a seat of the same
+        diameter or the general tolerance says it.
     """
 
     name: str
@@ -129,6 +132,7 @@ class Shoulder:
     datum: str = ""
     refers: str = ""
     along: float = 0.0
+    rim: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -34,6 +34,8 @@ TURNED, FINE, GROUND, GENERAL = 1.6e-6, 0.8e-6, 0.4e-6, 3.2e-6
 BEARING_FACE = 50e-6
 """Of the heights of faces between which bearings stand, to either side, m: what a lathe holds;
 shims make up for the sum."""
+SHAFT_RIM = 50e-6
+"""By how much the shoulders of a shaft may be smaller across, m: bearings stand on little of them."""
 RING_FACE = 30e-6
 """The same of the two faces that leave the ring its play: the clamp's over it, and the housing's
 under the clamp."""
@@ -114,6 +116,7 @@ def shoulder(
     datum: str = "",
     refers: str = "A",
     along: float = 0.0,
+    rim: float = 0.0,
 ) -> Shoulder:
     """The face beside a seat, one grade truer than it; as beside H7 where there is none.
 
@@ -121,11 +124,13 @@ def shoulder(
     ----------
     along : float
         Tolerance of its height, to either side, m; 0 where the general one holds.
+    rim : float
+        By how much its diameter may be smaller, m; 0 where the general tolerance holds.
     """
     grade, rough = (7, TURNED) if seat is None else (grade_of(seat.zone), seat.roughness)
     run_out = standard_tolerance(grade - 1, 2.0 * outer)
     return Shoulder(
-        name, height, inner, outer, facing, rough, run_out, fillet, datum, refers, along
+        name, height, inner, outer, facing, rough, run_out, fillet, datum, refers, along, rim
     )
 
 

@@ -9,7 +9,7 @@ from cqdd_design.catalog.fits import fit_limits
 from cqdd_design.solids.features import zones
 from cqdd_design.solids.features.holes import Centre, Facing
 from cqdd_design.solids.features.kinds import Feature, Joint, Seat
-from cqdd_design.solids.features.making import BEARING_FACE, relief, seat, shoulder
+from cqdd_design.solids.features.making import BEARING_FACE, SHAFT_RIM, relief, seat, shoulder
 from cqdd_design.solids.layout import PackLayout, ShaftLayout
 from cqdd_design.solids.motor_layout import InrunnerLayout, MotorEnd
 
@@ -78,9 +78,9 @@ def journal_features(shaft: ShaftLayout) -> list[Feature]:
     reach = min(bearing.width, lower.top - lower.bottom)
     ends = (
         shoulder("lower shoulder", shaft.lower_seat_top, 0.5 * bore, shaft.shoulder_radius, "down",
-                 lower, refers="A-B", along=BEARING_FACE),
+                 lower, refers="A-B", along=BEARING_FACE, rim=SHAFT_RIM),
         shoulder("upper shoulder", shaft.upper_seat_bottom, 0.5 * bore, shaft.shoulder_radius, "up",
-                 upper, refers="A-B", along=BEARING_FACE),
+                 upper, refers="A-B", along=BEARING_FACE, rim=SHAFT_RIM),
     )  # fmt: skip
     reliefs = (
         relief("undercut of the lower journal", lower, "down", corner, length=reach),
