@@ -136,6 +136,11 @@ class Hunt:
     most_pin_circle : float
         Radius of the largest pin circle that is tried, m: round wider ones no carrier bearing of
         the catalogue fits.
+    most_throw : float
+        Largest eccentricity that is tried, m: larger ones leave the shaft too thin.
+    thicker : tuple of float, optional
+        Instead of a wider cam bearing: the bore of one, m, and an eccentricity, m, at which the
+        shaft in it is thick enough for a bond that gave way.
     pins : tuple of bool
         Whether output pins that are tried are on needles.
     tried : set of Goal
@@ -196,6 +201,8 @@ class Hunt:
     least_bore: float = 0.0
     least_ring: float = 0.0
     most_pin_circle: float = math.inf
+    most_throw: float = math.inf
+    thicker: tuple[float, float] | None = None
     pins: tuple[bool, ...] = (False,)
     tried: set[Goal] = field(default_factory=set)
     sturdier: float = 1.0
@@ -235,7 +242,7 @@ class Hunt:
     @property
     def fixed(self) -> tuple[object, ...]:
         """What is asked of every design with a cam bearing that is tried, but for part errors."""
-        limits = self.most_pin_circle, self.least_ring
+        limits = self.most_pin_circle, self.least_ring, self.most_throw
         return self.requirements, self.goal, *limits
 
     def may_rise(self, cam: str) -> bool:
@@ -341,7 +348,7 @@ class Hunt:
             ring_limit=space.ring_limit,
             ring_least=self.least_ring,
             pin_circle_limit=self.most_pin_circle,
-            throw_limit=space.throw,
+            throw_limit=min(space.throw, self.most_throw),
         )
 
 

@@ -1,26 +1,33 @@
 """What is asked of the next search where a design's shaft, or what it runs in, is too weak.
 
 A cam bearing with a wider bore leaves a thicker shaft and room for larger bearings at its ends, and
-takes material from the discs. Where the peak torque was not stated, less of it may cost less.
+takes material from the discs. So does less eccentricity, at the price of more force on what rolls.
+Where the peak torque was not stated, less of it may cost less.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import replace
 
+import numpy as np
+
+from cqdd_design.errors import DesignError, GeometryError
 from cqdd_design.machine import Machine
 from cqdd_design.results import Check
 from cqdd_design.sizing.able import PEAK
 from cqdd_design.sizing.bearable import JUST, bearable, weaker
 from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.spaces import Found
+from cqdd_design.solids.proportions import seat_bearings
 from cqdd_design.verdict.bore_line import bore_line
 from cqdd_design.verdict.rotor_lines import rotor_lines
 from cqdd_design.verdict.shaft_lines import shaft_lines
 
-_CAM = "CAM-JOINT"
-BONDS = frozenset({"BELL-JOINT", _CAM})
+_BELL, _CAM = "BELL-JOINT", "CAM-JOINT"
+BONDS = frozenset({_BELL, _CAM})
 """Lines of what is bonded on the shaft: the colder, the stronger."""
 ENDS = "SUPPORT-STATIC"
 AT_PEAK = frozenset({"SHAFT-STRENGTH", ENDS, _CAM})
@@ -35,6 +42,9 @@ SHAFT = AT_PEAK | ANY_TORQUE | {"SHAFT-FATIGUE", "SUPPORT-LIFE"} | BONDS
 THICKNESS = frozenset({"SHAFT-STRENGTH", "SHAFT-FATIGUE"})
 """Lines that a thinner shaft does worse."""
 _SHORT = frozenset({"fail", "unknown"})
+_THROW = "reducer.eccentricity"
+_LEAST_THROW, _THROW_STEP = 0.6, 0.005
+"""Share of an eccentricity to which it is lowered at most for a thicker shaft, and by which."""
 _WIDER, _SAME = 1.001, 0.999
 """Of a bore: the least of the next wider one, and one that is no narrower."""
 
@@ -63,6 +73,8 @@ def stronger_shaft(hunt: Hunt, found: Found, every: Iterable[Check]) -> None:
     bore = found.sized.machine.cam.bore_diameter
     wider = replace(hunt, least_bore=_WIDER * bore)
     lines = [line for line in every if line.id in SHAFT and line.status in _SHORT]
+    loose = next((line for line in lines if line.id == _BELL), None)
+    hunt.thicker = None if loose is None else _thicker_shaft(found.sized.machine, loose)
     if PEAK in hunt.requirements.derived and all(
         line.known and line.id in AT_PEAK for line in lines
     ):
@@ -77,3 +89,30 @@ def stronger_shaft(hunt: Hunt, found: Found, every: Iterable[Check]) -> None:
             hunt.least_bore = _SAME * bore
             return
     hunt.least_bore = wider.least_bore
+
+
+def _thicker_shaft(machine: Machine, bond: Check) -> tuple[float, float] | None:
+    """A cam bearing's bore and the eccentricity at which a bond on its shaft holds, both m.
+
+    By the bore of the bearings at its ends, with whose square the bond's strength goes. None where
+    that takes far less eccentricity.
+    """
+    journal = machine.seats[0].bearing.bore_diameter
+    wanted = journal / math.sqrt(bond.margin) if bond.margin > 0.0 else math.inf
+    throw = machine.design.reducer.eccentricity
+    for share in np.arange(1.0, _LEAST_THROW, -_THROW_STEP):
+        less = float(share * throw)
+        with suppress(DesignError, GeometryError):
+            ends, _ = seat_bearings(machine.changed({_THROW: less}).design, machine.cam)
+            if ends.bearing.bore_diameter >= wanted:
+                return machine.cam.bore_diameter, less
+    return None
+
+
+def turn_to_less_throw(hunt: Hunt) -> bool:
+    """Whether the next search tries less eccentricity, where no wider cam bearing helped."""
+    if hunt.thicker is None:
+        return False
+    bore, hunt.most_throw = hunt.thicker
+    hunt.least_bore, hunt.thicker = _SAME * bore, None
+    return True

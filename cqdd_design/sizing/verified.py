@@ -37,7 +37,7 @@ from cqdd_design.sizing.refusals import TRIALS, least_margin, nothing, refused, 
 from cqdd_design.sizing.result import SizingResult
 from cqdd_design.sizing.rings import finer
 from cqdd_design.sizing.search import Search
-from cqdd_design.sizing.shafts import stronger_shaft
+from cqdd_design.sizing.shafts import stronger_shaft, turn_to_less_throw
 from cqdd_design.sizing.spaces import Found, closer
 from cqdd_design.sizing.stage_tables import stage_tables
 from cqdd_design.sizing.sturdiest import strong_and_sound
@@ -285,6 +285,8 @@ def _again(hunt: Hunt, found: Found) -> Found | None:
     the strongest.
     """
     better = lightest(hunt)
+    if better is None and turn_to_less_throw(hunt):
+        better = lightest(hunt)
     if better is None:
         better = eased(hunt, found, MUCH)
     return or_weaker(hunt, lambda: lightest(hunt), found) if better is None else better

@@ -256,7 +256,7 @@ class SectionPlan:
         return found
 
     def _way(self, body: Cylinder) -> str:
-        """Limits of a shoulder's edge, or of a bore that would else be less than what is asked for."""
+        """Limits of a shoulder's edge, or of a bore that would else be less than is asked for."""
         for face in self.shape.facts.part.features:
             if not isinstance(face, Shoulder):
                 continue

@@ -21,8 +21,8 @@ ROWS = (
         "Lowest shoulder beside a bearing, over the bearing's chamfer",
         "",
         "min",
-        "width of the face on a ring, at the limits of its diameter and with its edge broken, / the "
-        "ring's least chamfer (catalogue; ISO 15) >= largest chamfer (ISO 582) / least",
+        "width of the face on a ring, at the limit of its diameter and with its edge broken, / "
+        "its least chamfer (catalogue; ISO 15) >= largest chamfer (ISO 582) / least",
         "A shoulder lower than the chamfer of the ring's edge does not hold it at all, and a maker "
         "may make that chamfer twice the least; the shop may make the shoulder smaller and break "
         "its edge.",

@@ -35,7 +35,7 @@ BEARING_FACE = 50e-6
 """Of the heights of faces between which bearings stand, to either side, m: what a lathe holds;
 shims make up for the sum."""
 SHAFT_RIM = 50e-6
-"""By how much the shoulders of a shaft may be smaller across, m: bearings stand on little of them."""
+"""By how much a shaft's shoulders may be smaller across, m: bearings stand on little of them."""
 RING_FACE = 30e-6
 """The same of the two faces that leave the ring its play: the clamp's over it, and the housing's
 under the clamp."""

@@ -1,0 +1,82 @@
+"""A bond that gives way asks for a thicker shaft: in a wider cam bearing, or with less throw."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+from cqdd_design.design import load_design
+from cqdd_design.machine import Machine, resolve
+from cqdd_design.results import Check
+from cqdd_design.sizing.hunt import Hunt
+from cqdd_design.sizing.shafts import stronger_shaft, turn_to_less_throw
+from cqdd_design.sizing.spaces import USUAL_FIT, Space
+from cqdd_design.sizing.stage_tables import stage_tables
+from cqdd_design.verdict.joint_lines import bell_line
+
+GALLERY = Path(__file__).resolve().parents[2] / "docs" / "gallery"
+
+
+@pytest.fixture(scope="module")
+def machine() -> Machine:
+    """Three discs on a shaft of 9 mm, as thick as its bond needs."""
+    return resolve(load_design(GALLERY / "three-discs-9.toml"))
+
+
+def asked(machine: Machine, line: Check) -> Hunt:
+    """A hunt that has found the bond of a machine too weak."""
+    requirements = machine.given.requirements
+    hunt = Hunt(requirements, None, None, print, stage_tables(requirements.ratio), "mass")
+    space = Space(3, machine.design.reducer.disc_material, "", USUAL_FIT)
+    stronger_shaft(
+        hunt, SimpleNamespace(space=space, sized=SimpleNamespace(machine=machine)), [line]
+    )
+    return hunt
+
+
+def weaker(machine: Machine, margin: float) -> Check:
+    line = bell_line(machine, None)
+    assert line.value is not None
+    assert line.limit is not None
+    return replace(line, value=line.limit / margin)
+
+
+def test_less_eccentricity_leaves_room_for_the_next_bearing(machine: Machine) -> None:
+    """9 mm at a margin of 0.9 ask for 9.49 mm, so for a journal of 10 mm."""
+    assert machine.seats[0].bearing.bore_diameter == pytest.approx(9e-3)
+    line = weaker(machine, 0.9)
+    assert line.status == "fail"
+    hunt = asked(machine, line)
+    bore = machine.cam.bore_diameter
+    assert hunt.least_bore > bore
+    assert turn_to_less_throw(hunt)
+    assert hunt.least_bore < bore
+    throw = machine.design.reducer.eccentricity
+    assert 0.6 * throw < hunt.most_throw < throw
+    slim = machine.changed({"reducer.eccentricity": hunt.most_throw})
+    assert slim.seats[0].bearing.bore_diameter == pytest.approx(10e-3)
+    # A little more would not do.
+    still = machine.changed({"reducer.eccentricity": hunt.most_throw + 0.03e-3})
+    assert still.seats[0].bearing.bore_diameter == pytest.approx(9e-3)
+    # Once: what this finds may ask again.
+    assert not turn_to_less_throw(hunt)
+
+
+def test_a_bond_that_is_far_too_weak_is_not_searched_for_so(machine: Machine) -> None:
+    hunt = asked(machine, weaker(machine, 0.2))
+    assert hunt.least_bore > machine.cam.bore_diameter
+    assert not turn_to_less_throw(hunt)
+
+
+def test_nothing_is_searched_for_with_a_larger_eccentricity_than_that(machine: Machine) -> None:
+    hunt = asked(machine, weaker(machine, 0.9))
+    space = Space(
+        3, machine.design.reducer.disc_material, machine.design.reducer.ring_material, USUAL_FIT
+    )
+    before = hunt.fixed
+    turn_to_less_throw(hunt)
+    assert hunt.frame(space, {}).throw_limit == hunt.most_throw
+    assert hunt.fixed != before
