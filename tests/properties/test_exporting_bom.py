@@ -130,6 +130,19 @@ def test_both_seats_of_the_shafts_bearings_are_told(rows):
     )
 
 
+def test_the_seat_of_the_output_bearing_says_what_heat_does_to_it(paper, rows):
+    """7075 grows by 23.6 um/(m K), the ring by 11.9 of its steel: 50 mm by 5.9 um in 10 K."""
+    (row,) = (row for row in rows if row["part"] == "output bearing")
+    plate, ring = find_material("7075-T6"), find_material("AISI 52100 / 100Cr6 hardened")
+    growth = 10.0 * 50e-3 * (plate.expansion - ring.expansion)
+    assert (
+        f"for every 10 K above 20 \u00b0C the plate presses it {1e6 * growth:.2g}" in row["fitting"]
+    )
+    assert 5e-6 < growth < 7e-6
+    of_steel = resolve(paper.replacing({"housing.material": "AISI 4140 Q&T 540C"}))
+    assert "for every" not in fitting_notes(of_steel)["output bearing"]
+
+
 def test_the_third_cam_bearing_has_a_seat_of_its_own(paper, rows):
     """On the loose cam, whose lobe is ground smaller for it grows when it is pressed on."""
     three = resolve(paper.replacing({"reducer.disc_count": 3}))
