@@ -281,7 +281,7 @@ def cqdd(tmp_path: Path, shared_runs: Path, request: pytest.FixtureRequest) -> C
         *arguments: str | Path,
         folder: Path = tmp_path,
         environment: Mapping[str, str] | None = None,
-        timeout: float = 400.0,
+        timeout: float = 600.0,
     ) -> Finished:
         words, given = [str(one) for one in arguments], environment or {}
         told = None
