@@ -20,6 +20,10 @@ _CURES = {
     "(fewer or thinner output_pins, or another circle_radius)",
     "carrier column": "give the columns screws (a larger carrier.column_diameter)",
 }
+_SHOULDER_CURES = {
+    "shaft": "a cam bearing with a larger bore, or less eccentricity, leaves higher shoulders",
+    "output": "another carrier_bearing.designation, with smaller chamfers or higher rings",
+}
 
 
 def retention_lines(machine: Machine, warm: MachineTemperatures | None = None) -> tuple[Check, ...]:
@@ -78,7 +82,7 @@ def _shoulder(table: tuple[Retained, ...]) -> Check:
         f"{row.name} on {stop.by}: {1e3 * stop.face:.3g} mm as drawn, {1e3 * stop.sure:.3g} mm at "
         f"the limits of its diameter and edge; chamfer of the {bearing.designation} "
         f"{1e3 * least:.3g} to {1e3 * largest:.3g} mm",
-        "a cam bearing with a larger bore, or less eccentricity, leaves higher shoulders",
+        _SHOULDER_CURES["output" if row.name.startswith("output") else "shaft"],
     )
 
 
