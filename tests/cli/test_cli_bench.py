@@ -214,6 +214,7 @@ def test_motors_that_cannot_be_simulated(motor, says, tmp_path, capfd):
     assert says in " ".join(capfd.readouterr().err.split())
 
 
+@pytest.mark.deep
 def test_like_names_of_unlike_figures_are_told_apart(cqdd, paper_design_file):
     """Its continuous torque is of a standing output, that of the verdict for ever at speed."""
     done = cqdd("bench", paper_design_file)

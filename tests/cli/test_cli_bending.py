@@ -53,6 +53,7 @@ def test_a_line_that_may_leave_an_end_is_warned_of(cqdd, paper_design_file):
     assert not any("leave one end of the line" in one for one in full["warnings"])
 
 
+@pytest.mark.deep
 def test_a_support_bearing_beyond_its_static_rating_is_warned_of(cqdd, paper_design_file):
     """SKF 61900: 1270 N, where the peak torque of the paper's gearbox asks for four times that."""
     for torque, beyond in (((), True), (("--torque", "1 N*m"), False)):

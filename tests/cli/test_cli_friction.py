@@ -47,6 +47,7 @@ def test_a_sense_that_is_none_is_refused(cqdd, paper_design_file):
     assert "'sideways' is not one of" in done.err
 
 
+@pytest.mark.deep
 def test_stress_of_discs_and_ring_stands_beside_its_checks(cqdd, paper_design_file):
     done = cqdd("analyse", paper_design_file, "--angles", "24", "--json").document
     bodies, checks = done["results"]["bodies"], {one["id"]: one for one in done["checks"]}

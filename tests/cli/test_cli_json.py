@@ -134,6 +134,7 @@ def test_check_says_what_would_make_it_pass(cqdd, paper_design_file):
     assert "does NOT meet its requirements" in done.out.splitlines()[-1]
 
 
+@pytest.mark.deep
 def test_analyse_torque_moves_loads_and_not_checks(cqdd, paper_design_file):
     few = ("--angles", "24", "--json")
     peak = cqdd("analyse", paper_design_file, *few).document
@@ -143,6 +144,7 @@ def test_analyse_torque_moves_loads_and_not_checks(cqdd, paper_design_file):
     assert less["checks"] == peak["checks"]
 
 
+@pytest.mark.deep
 def test_analyse_speed_moves_the_life(cqdd, paper_design_file):
     few = ("--angles", "24", "--json")
     slow = cqdd("analyse", paper_design_file, "--speed", "643 rpm", *few).document

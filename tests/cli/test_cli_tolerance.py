@@ -74,6 +74,7 @@ def test_people_get_a_table_and_a_ranking(cqdd) -> None:
     assert len(done.err.splitlines()) <= 12
 
 
+@pytest.mark.deep
 def test_the_backlash_of_the_verdict_is_that_of_as_many_gearboxes(cqdd) -> None:
     """Of 1000 gearboxes it is another number, and said to be."""
     judged = cqdd("check", str(DESIGN), "--json").document["results"]["verdict"]["headline"]

@@ -20,6 +20,7 @@ DESIGNS = Path(__file__).resolve().parents[2] / "designs"
 DESIGN, CALIBRATION = DESIGNS / "cqdd-10.toml", DESIGNS / "cqdd-10-calibration.json"
 
 
+@pytest.mark.deep
 def test_a_network_that_corrects_its_own_actuator(cqdd, tmp_path):
     data = ("--data", "data")
     made = cqdd(

@@ -290,6 +290,7 @@ def test_without_bodies_and_sizing_their_sections_are_left_out(paper_input: Repo
         assert f'href="#{anchor}"' not in bare
 
 
+@pytest.mark.deep
 def test_a_sized_design_shows_how_it_was_found() -> None:
     found = sized(ratio=10)
     page = build_report(dataclasses.replace(report_input(found.design), sizing=found))

@@ -42,6 +42,7 @@ def test_every_section_says_what_it_stands_for(asked: Analysis, usual: Analysis)
     assert usual.at["checks"] == asked.at["checks"] == "requirements"
 
 
+@pytest.mark.deep
 def test_sections_that_follow_are_those_of_a_design_with_that_torque(asked: Analysis) -> None:
     """Peak, continuous torque and duty all at the torque asked for: the same in every section."""
     design = load_design(PAPER)
@@ -64,6 +65,7 @@ def test_nothing_that_follows_stays_and_the_verdict_does(asked: Analysis, usual:
     assert told["losses"]["torque_Nm"] == told["precision"]["torque_Nm"] == TORQUE
 
 
+@pytest.mark.deep
 def test_a_speed_moves_its_sections_and_not_the_verdict() -> None:
     """A design that fails at its own speed does not pass because it was looked at at another."""
     design = load_design(PAPER)
@@ -84,6 +86,7 @@ def test_a_speed_moves_its_sections_and_not_the_verdict() -> None:
     assert "judged at the requirements, not at the speed asked for" in " ".join(lines.split())
 
 
+@pytest.mark.deep
 def test_torque_and_speed_together_are_both_told() -> None:
     both = analyse(load_design(PAPER), torque=TORQUE, speed=20.0, angles=8)
     same = analyse(load_design(PAPER).turning_at(20.0), torque=TORQUE, angles=8).to_dict()

@@ -115,6 +115,7 @@ def test_greatest_stress_of_the_ring_is_that_of_a_second_mesh(name: str, seat: f
     assert found[at, place] == pytest.approx(expected, rel=3e-2)
 
 
+@pytest.mark.deep
 def test_stress_beside_a_unit_load_that_stands_for_a_contact_is_not_the_rings() -> None:
     """A place where stress is found may coincide with one of loads: here by 5 nm, at 1.08 mm."""
     asked = {"ratio": 22, "peak_torque": "39 N*m", "continuous_torque": "5 N*m"}

@@ -116,6 +116,7 @@ def test_what_is_held_does_not_grow_with_what_is_asked(machines: dict[str, Machi
     assert max(told) < 1.03 * min(told)
 
 
+@pytest.mark.deep
 def test_a_joint_that_stands_is_judged_by_all_parts(machines: dict[str, Machine]) -> None:
     """Slower than a design may state; and no more than the drive gives."""
     case = {"torque": 2.0, "speed": 0.0, "share": 1.0}

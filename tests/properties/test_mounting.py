@@ -101,6 +101,7 @@ def test_a_joint_is_fixed_as_its_thread_bears_it() -> None:
     assert thin.slip_safety < 0.5 * fixed.slip_safety
 
 
+@pytest.mark.deep
 def test_a_stop_is_judged_by_all_that_gives_way() -> None:
     """Cover screws of M3 slip long before ring, pins and cam bearing are at their limits."""
     machine = drawn("reference-s").changed({"requirements.shock_speed": "1 rad/s"})

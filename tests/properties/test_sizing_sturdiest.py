@@ -80,6 +80,7 @@ def clearance(machine: Machine) -> float:
     return machine.design.reducer.output_pins.hole_clearance
 
 
+@pytest.mark.deep
 def test_the_strongest_are_judged_with_less_clearance_first(
     light: Found, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -100,6 +101,7 @@ def test_the_strongest_are_judged_with_less_clearance_first(
     assert hunt.fit == FITS[1]
 
 
+@pytest.mark.deep
 def test_what_looks_at_one_ask_for_does_not_count_for_the_next(
     light: Found, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -587,6 +587,7 @@ def test_what_looks_ask_for_is_what_the_hunt_is_for() -> None:
     assert hunt.requirements == asked
 
 
+@pytest.mark.deep
 def test_a_design_is_looked_at_with_what_it_was_found_to_ask_for(
     monkeypatch: pytest.MonkeyPatch, light: Found
 ) -> None:

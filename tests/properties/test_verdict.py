@@ -197,6 +197,7 @@ def test_the_speed_that_is_advised_is_one_at_which_the_torque_is_held(
         assert line_of(**{"requirements.continuous_speed": f"{faster} rpm"}).status == "fail"
 
 
+@pytest.mark.deep
 def test_under_a_duty_its_heat_decides_and_not_the_continuous_torque(machine: Machine) -> None:
     duty = [{"torque": "3 N*m", "speed": "-1 rad/s", "share": 0.5}]
     mean = 0.5 * machine.design.reducer.ratio
@@ -246,6 +247,7 @@ def test_the_first_figure_is_the_weaker_of_motor_and_gearbox(judged: Verdict) ->
     assert (figure.value < 50.0) == (motor < 50.0 or not ring.satisfied)
 
 
+@pytest.mark.deep
 def test_the_rotor_hangs_on_the_support_bearings_at_any_torque(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -267,6 +269,7 @@ def test_a_peak_that_is_not_known_names_the_lines_that_are_not() -> None:
     assert figure.basis.startswith("not known of OUTPUT-STATIC; all else holds to 13.24 N*m (")
 
 
+@pytest.mark.deep
 def test_a_peak_of_which_nothing_is_known_says_no_torque(
     machine: Machine, monkeypatch: pytest.MonkeyPatch
 ) -> None:
