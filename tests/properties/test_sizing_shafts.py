@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -11,6 +12,7 @@ import pytest
 from cqdd_design.design import load_design
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.results import Check
+from cqdd_design.sizing import verified
 from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.shafts import stronger_shaft, turn_to_less_throw
 from cqdd_design.sizing.spaces import USUAL_FIT, Space
@@ -80,3 +82,19 @@ def test_nothing_is_searched_for_with_a_larger_eccentricity_than_that(machine: M
     turn_to_less_throw(hunt)
     assert hunt.frame(space, {}).throw_limit == hunt.most_throw
     assert hunt.fixed != before
+
+
+def test_it_is_tried_where_no_wider_cam_bearing_leads_to_a_design(
+    machine: Machine, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What the search finds then is taken, before torques are lowered or the hunt ends."""
+    hunt, throws = asked(machine, weaker(machine, 0.9)), []
+
+    def searched(one: Hunt) -> str | None:
+        throws.append(one.most_throw)
+        return None if len(throws) < 2 else "a design"
+
+    monkeypatch.setattr(verified, "lightest", searched)
+    assert verified._again(hunt, SimpleNamespace()) == "a design"
+    assert throws[0] == math.inf
+    assert throws[1] < machine.design.reducer.eccentricity
