@@ -73,8 +73,7 @@ def stronger_shaft(hunt: Hunt, found: Found, every: Iterable[Check]) -> None:
     bore = found.sized.machine.cam.bore_diameter
     wider = replace(hunt, least_bore=_WIDER * bore)
     lines = [line for line in every if line.id in SHAFT and line.status in _SHORT]
-    loose = next((line for line in lines if line.id == _BELL), None)
-    hunt.thicker = None if loose is None else _thicker_shaft(found.sized.machine, loose)
+    hunt.thicker = _thicker_shaft(found.sized.machine, lines)
     if PEAK in hunt.requirements.derived and all(
         line.known and line.id in AT_PEAK for line in lines
     ):
@@ -91,20 +90,25 @@ def stronger_shaft(hunt: Hunt, found: Found, every: Iterable[Check]) -> None:
     hunt.least_bore = wider.least_bore
 
 
-def _thicker_shaft(machine: Machine, bond: Check) -> tuple[float, float] | None:
-    """A cam bearing's bore and the eccentricity at which a bond on its shaft holds, both m.
+def _thicker_shaft(machine: Machine, lines: Iterable[Check]) -> tuple[float, float] | None:
+    """A cam bearing's bore and the eccentricity at which a shaft in it may do, both m.
 
-    By the bore of the bearings at its ends, with whose square the bond's strength goes. None where
-    that takes far less eccentricity.
+    By the bearings at its ends: with the square of their bore goes the bond on the shaft's stub,
+    and what they bear with their rating. None for other lines, or where it takes far less
+    eccentricity.
     """
-    journal = machine.seats[0].bearing.bore_diameter
-    wanted = journal / math.sqrt(bond.margin) if bond.margin > 0.0 else math.inf
-    throw = machine.design.reducer.eccentricity
+    margins = {line.id: line.margin if line.known else 0.0 for line in lines}
+    if not margins or not margins.keys() <= {_BELL, ENDS} or min(margins.values()) <= 0.0:
+        return None
+    now, throw = machine.seats[0].bearing, machine.design.reducer.eccentricity
+    bore = now.bore_diameter / math.sqrt(margins[_BELL]) if _BELL in margins else 0.0
+    rating = (now.static_rating or math.inf) / margins[ENDS] if ENDS in margins else 0.0
     for share in np.arange(1.0, _LEAST_THROW, -_THROW_STEP):
         less = float(share * throw)
         with suppress(DesignError, GeometryError):
             ends, _ = seat_bearings(machine.changed({_THROW: less}).design, machine.cam)
-            if ends.bearing.bore_diameter >= wanted:
+            able = ends.bearing.static_rating or 0.0
+            if ends.bearing.bore_diameter >= bore and able >= rating:
                 return machine.cam.bore_diameter, less
     return None
 

@@ -18,6 +18,7 @@ from cqdd_design.sizing.shafts import stronger_shaft, turn_to_less_throw
 from cqdd_design.sizing.spaces import USUAL_FIT, Space
 from cqdd_design.sizing.stage_tables import stage_tables
 from cqdd_design.verdict.joint_lines import bell_line
+from cqdd_design.verdict.shaft_lines import shaft_lines
 
 GALLERY = Path(__file__).resolve().parents[2] / "docs" / "gallery"
 
@@ -65,6 +66,23 @@ def test_less_eccentricity_leaves_room_for_the_next_bearing(machine: Machine) ->
     assert still.seats[0].bearing.bore_diameter == pytest.approx(9e-3)
     # Once: what this finds may ask again.
     assert not turn_to_less_throw(hunt)
+
+
+def test_less_eccentricity_leaves_room_for_bearings_that_bear_more(machine: Machine) -> None:
+    """432 N of a thin bearing of 10 mm at a margin of 0.9 ask for 480 N."""
+    thin = machine.changed({"reducer.eccentricity": 2.15e-3})
+    assert thin.seats[0].bearing.static_rating == pytest.approx(432.0)
+    line = next(one for one in shaft_lines(thin) if one.id == "SUPPORT-STATIC")
+    assert line.limit is not None
+    hunt = asked(thin, replace(line, value=0.9 * line.limit))
+    assert hunt.thicker is not None
+    slim = thin.changed({"reducer.eccentricity": hunt.thicker[1]}).seats[0].bearing
+    assert slim.static_rating is not None
+    assert slim.static_rating >= 432.0 / 0.9
+    fatigue = next(one for one in shaft_lines(machine) if one.id == "SHAFT-FATIGUE")
+    assert fatigue.limit is not None
+    # What else it may be that is weak has ways of its own.
+    assert asked(machine, replace(fatigue, value=1.1 * fatigue.limit)).thicker is None
 
 
 def test_a_bond_that_is_far_too_weak_is_not_searched_for_so(machine: Machine) -> None:
