@@ -258,9 +258,9 @@ class SectionPlan:
     def _way(self, body: Cylinder) -> str:
         """Limits of a shoulder's edge, or of a bore that would else be less than is asked for."""
         for face in self.shape.facts.part.features:
-            if not isinstance(face, Shoulder):
+            if body.inside or not isinstance(face, Shoulder) or not face.rim:
                 continue
-            if face.rim and not body.inside and abs(face.outer - body.radius) < SAME:
+            if abs(face.outer - body.radius) < SAME:
                 return f" (0/-{free_mm(face.rim)})"
         asked, size = self.shape.facts.design.requirements.bore, 2.0 * body.radius
         if asked is None or not body.inside or body.centre:
