@@ -45,6 +45,7 @@ CHECKS = (
     "SHAFT-STUB",
     "OUTPUT-STATIC",
     "OUTPUT-LIFE",
+    "OUTPUT-PRELOAD",
     "DOWEL-SHEAR",
     "DOWEL-BEARING",
     "BELL-JOINT",

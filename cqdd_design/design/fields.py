@@ -235,6 +235,7 @@ def _plain(text: str) -> str:
 #: Text that goes to terminals, reports and programs.
 FreeText = Annotated[str, AfterValidator(_plain)]
 MaterialName = Annotated[str, AfterValidator(_known(find_material))]
+MaterialOrAuto = Annotated[str, AfterValidator(_known(find_material, "auto"))]
 MotorName = Annotated[str, AfterValidator(_known(find_bare_motor))]
 BearingName = Annotated[str, AfterValidator(_known(find_bearing, "auto"))]
 FinishName = Annotated[str, AfterValidator(_known(find_finish))]

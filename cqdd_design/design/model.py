@@ -204,6 +204,12 @@ class Design(FrozenModel):
         return self._assumed
 
     @property
+    def carrier_material(self) -> str:
+        """What plate and cap of the carrier are of: the housing's material unless stated."""
+        stated = self.reducer.carrier.material
+        return self.housing.material if stated == "auto" else stated
+
+    @property
     def motor_row(self) -> Motor:
         """The motor that ``[motor]`` means, as a row of the catalogue; see `design.motor_row`."""
         return motor_row(self.motor, self._motor_place)

@@ -16,6 +16,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import ValidationInfo, model_validator
 
+from cqdd_design.catalog.materials import find_material
 from cqdd_design.catalog.screws import LEAST_COLUMN
 from cqdd_design.design.fields import (
     BearingName,
@@ -23,6 +24,7 @@ from cqdd_design.design.fields import (
     FrozenModel,
     LubricantName,
     MaterialName,
+    MaterialOrAuto,
     Share,
     ShareOr,
     Whole,
@@ -135,7 +137,9 @@ class CamBearing(FrozenModel):
 
 
 class Carrier(FrozenModel):
-    """How the carrier's plate and cap are joined, where both hold the output pins.
+    """What the carrier's plate and cap are of, and how they are joined, where both hold the pins.
+
+    material: "auto" is that of the housing.
 
     clamped: the pins sit tight in both and keep their slope there; hinged: tight in the plate,
     free to slide and turn in the cap; columns: as hinged, and columns between the pins, through
@@ -143,11 +147,22 @@ class Carrier(FrozenModel):
     otherwise.
     """
 
+    material: MaterialOrAuto = "auto"
     joint: CarrierJoint = "clamped"
     column_count: Annotated[int, Whole(0, 60, "columns stand between the output pins")] = 0
     column_diameter: Annotated[
         float, QuantityIn(LENGTH, "0 mm", "100 mm", "0 where there are no columns")
     ] = default("0 mm")
+
+    @model_validator(mode="after")
+    def _of_metal(self) -> Carrier:
+        if self.material != "auto" and find_material(self.material).is_plastic:
+            raise ValueError(
+                f"material '{self.material}' is a plastic, of which a carrier is made where the "
+                'housing is: set housing.material and leave this at "auto", or choose a metal '
+                "such as 'AISI 4140 Q&T 540C'"
+            )
+        return self
 
     @model_validator(mode="after")
     def _columns_belong(self) -> Carrier:

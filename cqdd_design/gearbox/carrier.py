@@ -51,7 +51,7 @@ def section_of(design: Design) -> PinSection:
     """Section of a design's pins and the yield of their seats."""
     pins = design.reducer.output_pins
     pin = find_material(pins.material)
-    plate = find_material(design.housing.material)
+    plate = find_material(design.carrier_material)
     return pin_section(pins.diameter, pin.youngs_modulus, pin.poisson_ratio, plate.youngs_modulus)
 
 

@@ -86,7 +86,7 @@ def join_stiffness(design: Design) -> float:
     if not has_columns(reducer):
         return 0.0
     carrier, steel = reducer.carrier, find_material(COLUMN_MATERIAL)
-    plate = find_material(design.housing.material)
+    plate = find_material(design.carrier_material)
     length = float(pin_span(reducer.disc_count, reducer.disc_thickness, reducer.disc_spacing))
     own = column_stiffness(
         length,

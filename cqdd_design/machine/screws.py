@@ -111,9 +111,9 @@ def _loaded(screws: Tightened, across: float, along: float, cure: str = "") -> S
     )
 
 
-def _harder_or(screws: Tightened, cure: str) -> str:
-    """A stronger housing, where head's seat or thread yield before the screw; else another cure."""
-    return cure if screws.clamping.screw_yields else "take a stronger housing.material"
+def _harder_or(screws: Tightened, cure: str, metal: str = "housing.material") -> str:
+    """A stronger metal, where head's seat or thread yield before the screw; else another cure."""
+    return cure if screws.clamping.screw_yields else f"take a stronger {metal}"
 
 
 def screw_joints(machine: Machine) -> tuple[ScrewJoint, ...]:
@@ -215,7 +215,11 @@ def _output(machine: Machine) -> ScrewJoint | None:
         screws,
         0.0,
         (asked.external_axial or 0.0) / OUTPUT_BOLTS + tilting,
-        _harder_or(screws, "raise output_pins.circle_radius, which sets them farther out"),
+        _harder_or(
+            screws,
+            "raise output_pins.circle_radius, which sets them farther out",
+            "carrier.material",
+        ),
     )
 
 
@@ -223,7 +227,7 @@ def _output_screws(machine: Machine) -> Tightened | None:
     carrier = machine.layout.carrier
     if not carrier.bolt_thread:
         return None
-    metal, steel = _housing_metal(machine), find_material(SCREW_MATERIAL)
+    metal, steel = _carrier_metal(machine), find_material(SCREW_MATERIAL)
     size = carrier.bolt_thread
     return Tightened(
         "output's face",
@@ -246,7 +250,7 @@ def _output_screws(machine: Machine) -> Tightened | None:
 
 def _pin_screws(machine: Machine) -> Tightened | None:
     """The shoulder's end on its step in the plate; its seat holds the forces across."""
-    pin, metal = machine.layout.carrier.pin, _housing_metal(machine)
+    pin, metal = machine.layout.carrier.pin, _carrier_metal(machine)
     if pin.screw is None:
         return None
     return Tightened(
@@ -286,7 +290,7 @@ def _column_screws(machine: Machine) -> Tightened | None:
     columns = carrier.columns
     if columns is None:
         return None
-    metal, screw = _housing_metal(machine), columns.screw
+    metal, screw = _carrier_metal(machine), columns.screw
     return Tightened(
         "columns between plate and cap",
         screw.designation,
@@ -354,3 +358,7 @@ def _clamping(
 
 def _housing_metal(machine: Machine) -> Material:
     return find_material(machine.design.housing.material)
+
+
+def _carrier_metal(machine: Machine) -> Material:
+    return find_material(machine.design.carrier_material)

@@ -109,7 +109,7 @@ def design_of(evaluator: Evaluator, points: Points, row: int, suffix: str = "") 
             "ring_material": requirements.ring_material,
             "output_pins": pins,
             # Stated, since forces hang on it: no room is searched for columns.
-            "carrier": {"joint": "clamped"},
+            "carrier": {"joint": "clamped"} | frame.carrier_stated,
             "cam_bearing": {"designation": frame.bearings[points.bearing[row]].designation},
             "ring": {"outer_diameter": _clean(2.0 * points.outer_radius[row])},
         },

@@ -124,6 +124,8 @@ class Frame:
         Radius of the largest pin circle that is tried, m.
     throw_limit : float
         Largest eccentricity that is tried, m.
+    carrier_material : str
+        What the carrier is made of; empty for what the housing is.
     needs : mapping of str to float
         Torque reserve by load check that closed forms have to show, see `needed`.
     """
@@ -158,6 +160,7 @@ class Frame:
     ring_least: float = 0.0
     pin_circle_limit: float = math.inf
     throw_limit: float = math.inf
+    carrier_material: str = ""
     needs: Mapping[str, float] = field(default_factory=dict)
 
     def needed(self, check: str) -> float:
@@ -171,6 +174,11 @@ class Frame:
     def rotor_inertia(self) -> float | None:
         """Of the motor, kg m^2; None where it is not known."""
         return self.motor.rotor_inertia
+
+    @property
+    def carrier_stated(self) -> dict[str, str]:
+        """What a design states of its carrier's material: nothing where it is the housing's."""
+        return {"material": self.carrier_material} if self.carrier_material else {}
 
     @property
     def disc_torque(self) -> float:

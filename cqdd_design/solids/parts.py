@@ -228,7 +228,7 @@ def _bearing_part(
 
 
 def _carrier_parts(design: Design, layout: Layout) -> list[Part]:
-    carrier, metal = layout.carrier, design.housing.material
+    carrier, metal = layout.carrier, design.carrier_material
 
     def made(name: str, shape: Stack, how: str, features: tuple[Feature, ...]) -> Part:
         pieces = on_axis(name, CARRIER)

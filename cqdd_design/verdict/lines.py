@@ -25,6 +25,7 @@ from cqdd_design.verdict.drawn import yield_line
 from cqdd_design.verdict.evidence import Evidence
 from cqdd_design.verdict.joint_lines import joint_lines
 from cqdd_design.verdict.motor import motor_lines
+from cqdd_design.verdict.output_seat_line import output_seat_line
 from cqdd_design.verdict.retention_lines import retention_lines
 from cqdd_design.verdict.rotor_lines import rotor_lines
 from cqdd_design.verdict.rubbing_lines import rubbing_lines
@@ -49,6 +50,7 @@ def verdict_lines(evidence: Evidence) -> tuple[Check, ...]:
     lines += (
         *carried.values(),
         *shaft_lines(machine),
+        output_seat_line(machine, evidence.temperatures),
         *rotor_lines(machine),
         *joint_lines(machine, evidence.temperatures),
         *cam_lines(machine, evidence.temperatures),

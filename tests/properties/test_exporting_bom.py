@@ -37,6 +37,7 @@ from cqdd_design.machine import resolve
 from cqdd_design.machine.grease import grease_fill
 from cqdd_design.machine.screws import screw_joints
 from cqdd_design.roads.export import export
+from cqdd_design.verdict.output_seat_line import output_seat_line
 from cqdd_design.verdict.screw_lines import screw_lines
 
 COLUMNS = [
@@ -130,17 +131,16 @@ def test_both_seats_of_the_shafts_bearings_are_told(rows):
     )
 
 
-def test_the_seat_of_the_output_bearing_says_what_heat_does_to_it(paper, rows):
-    """7075 grows by 23.6 um/(m K), the ring by 11.9 of its steel: 50 mm by 5.9 um in 10 K."""
+def test_the_output_bearing_is_ordered_with_the_clearance_that_is_judged(paper, rows):
+    """A thin crossed roller has C0 alone; a ball bearing on aluminium is ordered loose."""
     (row,) = (row for row in rows if row["part"] == "output bearing")
-    plate, ring = find_material("7075-T6"), find_material("AISI 52100 / 100Cr6 hardened")
-    growth = 10.0 * 50e-3 * (plate.expansion - ring.expansion)
-    assert (
-        f"for every 10 K above 20 \u00b0C the plate presses it {1e6 * growth:.2g}" in row["fitting"]
-    )
-    assert 5e-6 < growth < 7e-6
-    of_steel = resolve(paper.replacing({"housing.material": "AISI 4140 Q&T 540C"}))
-    assert "for every" not in fitting_notes(of_steel)["output bearing"]
+    assert "on the carrier plate 50 h5" in row["fitting"]
+    assert "radial clearance C0, 0 to 15 \u00b5m" in row["fitting"]
+    for plate, name in (("auto", "C4"), ("AISI 4140 Q&T 540C", "CN")):
+        balls = {"reducer.carrier_bearing.designation": "6810", "reducer.carrier.material": plate}
+        machine = resolve(paper.replacing(balls))
+        assert f"radial clearance {name}, " in fitting_notes(machine)["output bearing"]
+        assert f"6810 {name}, " in output_seat_line(machine).substituted
 
 
 def test_the_third_cam_bearing_has_a_seat_of_its_own(paper, rows):

@@ -198,7 +198,7 @@ def test_bolts_that_yield_themselves_ask_for_no_stronger_housing(paper):
     assert output({"reducer.output_pins.circle_radius": wider}).slip_safety > joint.slip_safety
     soft = output({"housing.material": "PC-CF FDM along layers"})
     assert not soft.clamping.screw_yields
-    assert soft.cure == "take a stronger housing.material"
+    assert soft.cure == "take a stronger carrier.material"
 
 
 def test_shaft_that_tires_under_a_duty_speaks_of_the_duty(paper):

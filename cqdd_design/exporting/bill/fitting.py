@@ -6,11 +6,12 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from cqdd_design.catalog.adhesives import ROTOR_COMPOUND
-from cqdd_design.catalog.bearings import BEARING_MATERIAL, Bearing, find_bearing
+from cqdd_design.catalog.bearings import Bearing, find_bearing
 from cqdd_design.catalog.internal_clearance import clearance_group
-from cqdd_design.catalog.materials import find_material
 from cqdd_design.catalog.tightening import torque_words
+from cqdd_design.errors import CatalogError
 from cqdd_design.exporting.bill.known import catalogue_designations
+from cqdd_design.machine.output_seat import ordered_clearance, seated_states
 from cqdd_design.machine.screws import tightening_torques
 from cqdd_design.machine.sealing import bearing_seals
 from cqdd_design.solids.features import zones
@@ -23,8 +24,6 @@ if TYPE_CHECKING:
 
 _SAME = 1e-7
 _MM, _UM = 1e3, 1e6
-_STEP, _LEAST_GROWTH = 10.0, 0.5e-6
-"""Kelvins for which growth of a seat is told, and what is told at least, m."""
 
 
 def fitting_notes(machine: Machine) -> dict[str, str]:
@@ -112,22 +111,22 @@ def _bearings(machine: Machine, parts: dict[str, Part]) -> dict[str, str]:
             ("carrier plate", "output cover"),
         )
         + "; locked with the bearing nut"
-        + _clearance(layout.carrier.output.bearing, (zones.JOURNAL, zones.HOUSED))
-        + _warm_plate(layout.carrier.output.bearing, parts["carrier plate"].material),
+        + _output_clearance(machine),
     }
 
 
-def _warm_plate(bearing: Bearing, material: str) -> str:
-    """By how much a warm plate presses the inner ring harder, where it grows more than steel."""
-    ring, plate = find_material(BEARING_MATERIAL).expansion, find_material(material).expansion
-    if plate is None or ring is None:
-        return f"; how {material} grows is not known, nor how tight this seat gets in heat"
-    growth = (plate - ring) * bearing.bore_diameter * _STEP
-    if growth < _LEAST_GROWTH:
-        return ""
+def _output_clearance(machine: Machine) -> str:
+    """The clearance of the output bearing to order; OUTPUT-PRELOAD judges it."""
+    row = machine.layout.carrier.output.bearing
+    try:
+        found = ordered_clearance(row, machine.design.carrier_material)
+        fitted = seated_states(machine, None)[0].seated
+    except CatalogError as error:
+        return f"; radial clearance: {error.message}"
     return (
-        f"; for every {_STEP:g} K above 20 \u00b0C the plate presses it {_UM * growth:.2g} "
-        "\u00b5m harder, most of which its clearance loses: no line judges that"
+        f"; radial clearance {found.name}, {_UM * found.least:.0f} to {_UM * found.most:.0f} "
+        f"\u00b5m: its seats leave {_UM * fitted.mean:.0f} \u00b1{_UM * fitted.spread:.0f} "
+        "\u00b5m; what heat takes OUTPUT-PRELOAD judges"
     )
 
 
@@ -139,11 +138,6 @@ def _clearance(bearing: Bearing, seats: tuple[str, str], wanted: float | None = 
     wanted : float or None
         That the design counts with, m.
     """
-    if bearing.kind == "crossed roller":
-        return (
-            "; clearance C0 or C1, C1 on a plate that gets warm, not CC0, which is preloaded "
-            "before its seats press it"
-        )
     if bearing.kind != "ball":
         return ""
     found = clearance_group(bearing.bore_diameter, bearing.outer_diameter, *seats, wanted or 0.0)

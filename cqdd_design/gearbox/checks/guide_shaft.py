@@ -126,4 +126,18 @@ ROWS = (
         "THK, General Catalog, Cross-Roller Ring; ISO 281:2007",
         basis=_EQUILIBRIUM,
     ),
+    CheckGuide(
+        "OUTPUT-PRELOAD",
+        "Output bearing, likely preload by its seats and by heat",
+        "um",
+        "max",
+        "what seats (3 sigma) and the growth of plate and cover take of the clearance of the class "
+        "to order, less that clearance, as fitted, at the coldest start and settled <= what the "
+        "preloaded class CC0 has, 8 to 10 um on the diameter; balls 5 um (house value)",
+        "Beyond it the bearing runs hard and hot: its friction is more than losses count with, and "
+        "its life less.",
+        "Lame's tubes (Timoshenko and Goodier 1970, section 28); THK, General Catalog, "
+        "Cross-Roller Ring (radial clearance); ISO 5753-1; ISO 492",
+        basis="closed form",
+    ),
 )

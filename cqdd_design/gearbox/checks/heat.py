@@ -101,6 +101,6 @@ def clearance_check(states: tuple[Tightness, ...], remedy: Callable[[], str]) ->
 def clearance_remedy(more: str) -> str:
     """What frees warm parts: more clearance in words, and what makes it needless."""
     return (
-        f"{more}, make the carrier (housing.material) of what the discs are made of, or cool the "
+        f"{more}, make the carrier (carrier.material) of what the discs are made of, or cool the "
         "parts"
     )

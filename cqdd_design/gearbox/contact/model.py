@@ -159,7 +159,7 @@ class ContactModel(Stages):
         steel = find_material(reducer.disc_material)
         tooth = find_material(reducer.ring_material)
         pin = find_material(pins.material)
-        plate = find_material(design.housing.material)
+        plate = find_material(design.carrier_material)
         runner, rollers = pin_runner(design), ring_runner(design)
         films = tooth_film(design, temperature), pin_film(design, temperature)
         supported = reducer.cam_bearing.support_stiffness

@@ -96,12 +96,12 @@ class Growth(NamedTuple):
 
 
 def part_materials(design: Design) -> dict[str, str]:
-    """Catalogue names of what the parts are made of; the carrier is of the housing's material."""
+    """Catalogue names of what the parts are made of."""
     reducer = design.reducer
     return {
         "ring": reducer.ring_material,
         "disc": reducer.disc_material,
-        "carrier": design.housing.material,
+        "carrier": design.carrier_material,
         "pin": reducer.output_pins.material,
         "shaft": shaft_material(find_bearing(reducer.cam_bearing.designation)),
     }

@@ -99,6 +99,7 @@ _LABELS = {
     "reducer.output_pins.material": Label("pin material"),
     "reducer.cam_bearing.designation": Label("cam bearing"),
     "reducer.cam_bearing.radial_clearance": Label("radial clearance (total play)"),
+    "reducer.carrier.material": Label("carrier material (auto: the housing's)"),
     "reducer.carrier.joint": Label("plate and cap joined by"),
     "reducer.carrier.column_count": Label("columns between plate and cap"),
     "reducer.carrier.column_diameter": Label("column diameter (0: no columns)"),

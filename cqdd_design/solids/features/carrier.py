@@ -72,7 +72,8 @@ def _plate_seats(carrier: CarrierLayout, shaft: ShaftLayout) -> list[Feature]:
     groove = _nut_groove(carrier)
     outside = seat(
         "seat of the output bearing", output.bore_diameter,
-        carrier.bearing_bottom, carrier.bearing_top - groove.width, zones.JOURNAL, datum="A",
+        carrier.bearing_bottom, carrier.bearing_top - groove.width, zones.OUTPUT_JOURNAL,
+        datum="A",
     )  # fmt: skip
     seat_top = carrier.shaft_seat_top
     bore = seat(

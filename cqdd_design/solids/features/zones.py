@@ -1,12 +1,14 @@
 """Tolerance zones of the seats, named as on a drawing (ISO 286), and why these.
 
 The load of a cam bearing turns with the crank, so its inner ring has a standing load and slips on
-the lobe (h6), while its outer ring is pressed into the disc (N7). The shaft's support bearings and
-the output bearing are pressed on what turns (k6) and slide in what stands (H7). The load of the
-support bearings turns with the crank too, and would roll their outer rings round in such seats; but
-pressed on both sides they could not be set to their axial play, so a retaining compound holds them
-there. Ring and pins are located without play that matters: n6 in H7 for the ring, with a compound
-round it, since a warm housing of aluminium lets go of it, H7 over the f9 shoulders of the screws. A
+the lobe (h6), while its outer ring is pressed into the disc (N7). The shaft's support bearings are
+pressed on what turns (k6) and slide in what stands (H7). Their load turns with the crank too, and
+would roll their outer rings round in such seats; but pressed on both sides they could not be set to
+their axial play, so a retaining compound holds them there. The output bearing slides in what stands
+too; its inner ring is clamped by a nut and sits on h5, as the maker asks for crossed rollers of
+normal clearance (THK, General Catalog, Cross-Roller Ring: fitting), which a press fit would use up.
+Ring and pins are located without play that matters: n6 in H7 for the ring, with a compound round
+it, since a warm housing of aluminium lets go of it, H7 over the f9 shoulders of the screws. A
 retaining compound fills what H7 leaves there where a pin is to sit stiffly: in a cap whose joint is
 clamped, and in the plate where a dowel has no thread. The bell's bore is F7 over the k6 of the
 shaft, a slip fit of a few hundredths at most that the compound fills. So does D8 round the m6
@@ -19,8 +21,8 @@ from __future__ import annotations
 
 DISC_BORE, LOBE = "N7", "h6"
 """Round and inside the cam bearing."""
-JOURNAL, HOUSED = "k6", "H7"
-"""What turns in a bearing, and what stands round one."""
+JOURNAL, OUTPUT_JOURNAL, HOUSED = "k6", "h5", "H7"
+"""What turns in the shaft's bearings and in the output bearing, and what stands round them."""
 RING_OUTSIDE, RING_SEAT = "n6", "H7"
 PIN, PIN_HOLE = "f9", "H7"
 """Output pins and their seats; dowels and what they sit in."""
