@@ -125,7 +125,7 @@ class Frame:
     throw_limit : float
         Largest eccentricity that is tried, m.
     carrier_material : str
-        What the carrier is made of; empty for what the housing is.
+        What the carrier is made of; "auto" for what the housing is.
     needs : mapping of str to float
         Torque reserve by load check that closed forms have to show, see `needed`.
     """
@@ -160,7 +160,7 @@ class Frame:
     ring_least: float = 0.0
     pin_circle_limit: float = math.inf
     throw_limit: float = math.inf
-    carrier_material: str = ""
+    carrier_material: str = "auto"
     needs: Mapping[str, float] = field(default_factory=dict)
 
     def needed(self, check: str) -> float:
@@ -178,7 +178,7 @@ class Frame:
     @property
     def carrier_stated(self) -> dict[str, str]:
         """What a design states of its carrier's material: nothing where it is the housing's."""
-        return {"material": self.carrier_material} if self.carrier_material else {}
+        return {} if self.carrier_material == "auto" else {"material": self.carrier_material}
 
     @property
     def disc_torque(self) -> float:

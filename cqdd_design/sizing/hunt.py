@@ -141,8 +141,6 @@ class Hunt:
     thicker : tuple of float, optional
         Instead of a wider cam bearing: the bore of one, m, and an eccentricity, m, at which the
         shaft in it is thick enough for a bond that gave way.
-    carrier_material : str
-        What carriers are made of; empty for what the housing is.
     pins : tuple of bool
         Whether output pins that are tried are on needles.
     tried : set of Goal
@@ -205,7 +203,6 @@ class Hunt:
     most_pin_circle: float = math.inf
     most_throw: float = math.inf
     thicker: tuple[float, float] | None = None
-    carrier_material: str = ""
     pins: tuple[bool, ...] = (False,)
     tried: set[Goal] = field(default_factory=set)
     sturdier: float = 1.0
@@ -245,7 +242,7 @@ class Hunt:
     @property
     def fixed(self) -> tuple[object, ...]:
         """What is asked of every design with a cam bearing that is tried, but for part errors."""
-        limits = self.most_pin_circle, self.least_ring, self.most_throw, self.carrier_material
+        limits = self.most_pin_circle, self.least_ring, self.most_throw
         return self.requirements, self.goal, *limits
 
     def may_rise(self, cam: str) -> bool:
@@ -352,7 +349,6 @@ class Hunt:
             ring_least=self.least_ring,
             pin_circle_limit=self.most_pin_circle,
             throw_limit=min(space.throw, self.most_throw),
-            carrier_material=self.carrier_material,
         )
 
 

@@ -32,7 +32,6 @@ from cqdd_design.sizing.bearable import LASTING, weaker
 from cqdd_design.sizing.exact import yielding_checks
 from cqdd_design.sizing.finish import torque_reserve
 from cqdd_design.sizing.hunt import Hunt
-from cqdd_design.sizing.plates import steel_carrier
 from cqdd_design.sizing.shafts import stronger_shaft
 from cqdd_design.sizing.spaces import FITS, Found, spaces
 from cqdd_design.solids.motor_rules import undrawn_sizes
@@ -87,7 +86,7 @@ def learn(hunt: Hunt, found: Found) -> bool:
         can, step = (None, None) if nothing else look(hunt, rigid, heat_first=step is not None)
         if can is None and step is None:
             hunt.calm = calm
-            if loosened(hunt, found, rigid) or steel_carrier(hunt, rigid):
+            if loosened(hunt, found, rigid):
                 return True
             step = closer_look(hunt, found, machine)
             if not step:

@@ -2,26 +2,44 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from cqdd_design.catalog.bearings import SHAFT_MATERIAL
-from cqdd_design.machine import Machine
+from cqdd_design.machine import resolve
 from cqdd_design.machine.temperatures import judged_temperatures
-from cqdd_design.sizing.hunt import Hunt
-from cqdd_design.sizing.spaces import FITS
+from cqdd_design.sizing.spaces import Found
 from cqdd_design.verdict.output_seat_line import output_seat_line, steel_helps
 
+_MATERIAL = "reducer.carrier.material"
+_SURE = 1.1
+"""Margin of the line by rigid discs and ring from which it passes by elastic ones too, whose
+temperatures are within a kelvin or two."""
 
-def steel_carrier(hunt: Hunt, machine: Machine) -> bool:
-    """Whether carriers of designs that are searched for are of steel from now on.
 
-    It is three times as heavy, so aluminium is tried first.
+def with_sound_plate(found: Found) -> Found:
+    """The design, its carrier of steel where its bearing needs that.
+
+    Of the very same gearbox: steel is three times as heavy, so aluminium is searched for, and of
+    what a steel carrier changes of loads and heat most is for the better.
     """
-    if hunt.carrier_material:
-        return False
-    warm = judged_temperatures(machine)[0]
-    if output_seat_line(machine, warm).status != "fail" or not steel_helps(machine, warm):
-        return False
-    hunt.carrier_material, hunt.fit = SHAFT_MATERIAL, FITS[0]
-    # Its pins keep to their holes in heat, so clearance and torque may be what they were not.
-    hunt.lowered, hunt.lowered_by, hunt.calm = False, "", None
-    hunt.say("searching with a carrier of steel, for warm aluminium presses the output bearing")
-    return True
+    sized = found.sized
+    if sized.design.carrier_material == SHAFT_MATERIAL:
+        return found
+    rigid = replace(sized.machine, stiff=True)
+    warm = judged_temperatures(rigid)[0]
+    line = output_seat_line(rigid, warm)
+    if not line.known or line.margin >= _SURE or not steel_helps(rigid, warm):
+        return found
+    design = sized.design.replacing({_MATERIAL: SHAFT_MATERIAL})
+    machine = resolve(design, sized.machine.motor)
+    analysis = machine.analysis
+    return replace(
+        found,
+        sized=replace(
+            sized,
+            design=design,
+            machine=machine,
+            checks=analysis.checks,
+            warnings=analysis.warnings,
+        ),
+    )

@@ -28,6 +28,7 @@ from cqdd_design.sizing.looks import (
     read_spread,
     take,
 )
+from cqdd_design.sizing.plates import with_sound_plate
 from cqdd_design.sizing.points import Points
 from cqdd_design.sizing.refine import Starts, climb
 from cqdd_design.sizing.search import Search
@@ -77,7 +78,7 @@ def _sound(hunt: Hunt, kind: Space) -> tuple[Found, Verdict] | None:
         strong = _strongest(hunt, kind._replace(fit=hunt.fit))
         if strong is None:
             break
-        found = strong[1]
+        found = with_sound_plate(strong[1])
         can, step = look(hunt, replace(found.sized.machine, stiff=True))
         if can is None and step is None:
             can, step = look(hunt, found.sized.machine)

@@ -33,6 +33,7 @@ from cqdd_design.sizing.looks import (
     take,
 )
 from cqdd_design.sizing.motor_reach import refuse_weak_motor
+from cqdd_design.sizing.plates import with_sound_plate
 from cqdd_design.sizing.refusals import TRIALS, least_margin, nothing, refused, unsettled
 from cqdd_design.sizing.result import SizingResult
 from cqdd_design.sizing.rings import finer
@@ -191,7 +192,7 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
                 found = finer(hunt, found)
                 continue
             # With elastic discs and ring, of which the looks before knew nothing.
-            sound = None
+            sound, found = None, with_sound_plate(found)
             with drawing_ahead(found.sized.machine):
                 can, step = look(hunt, found.sized.machine)
             if can is None and step is None:
@@ -326,7 +327,9 @@ def _aside(hunt: Hunt) -> Hunt:
 
 def _result(hunt: Hunt, found: Found, began: float) -> SizingResult:
     """With alternatives in the same ring with any cam bearing, by closed forms and its needs."""
-    search = Search.of(hunt.frame(found.space._replace(cam=""), found.needs), hunt.tables)
+    frame = hunt.frame(found.space._replace(cam=""), found.needs)
+    stated = found.sized.design.reducer.carrier.material
+    search = Search.of(replace(frame, carrier_material=stated), hunt.tables)
     screen, most = search.found, search.most_reserve()
     others = () if most is None else search.alternatives(found.sized, search.at(found.point), most)
     return SizingResult(
