@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from solids_designs import known_design, known_parts, part_named
 
+from cqdd_design.catalog.fits import fit_limits
 from cqdd_design.errors import ReadBackError
 from cqdd_design.exporting.edm.cut_facts import zones_of
 from cqdd_design.exporting.edm.flat_parts import flat_parts
@@ -180,15 +181,55 @@ def test_ap242_carries_the_sizes_that_a_drawing_gives_a_zone(tmp_path: Path) -> 
         size = XCAFDoc_Dimension.Set_s(labels.Value(i)).GetObject()
         values = size.GetValue(), size.GetLowerTolValue(), size.GetUpperTolValue()
         read.append((*(round(value, 6) for value in values), faces.Length()))
-    # 50 k6, 22 H7, the centring bore; 4 H7 of the five seats of pins and of two dowels, each with
-    # its faces.
+    # Lower ones as the kernel has them, how far below: 50 h5, 22 H7, the centring bore; 4 H7 of the
+    # five seats of pins and of two dowels, each with its faces.
     assert sorted(read) == [
         (4.0, 0.0, 0.012, 2),
         (4.0, 0.0, 0.012, 5),
         (18.4, 0.0, 0.021, 1),
         (22.0, 0.0, 0.021, 1),
-        (50.0, 0.002, 0.018, 1),
+        (50.0, 0.011, 0.0, 1),
     ]
+
+
+def bounds_in(text: str) -> set[tuple[float, float, float]]:
+    """Diameter, lower and upper bound of every size of a STEP file, by its text alone, mm."""
+    lines = dict(re.findall(r"#(\d+) ?= ?([^;]*);", text.replace("\n", "")))
+
+    def number(key: str) -> float:
+        return float(re.search(r"MEASURE(?:_WITH_UNIT)?\(([-\d.E+]+)[,)]", lines[key])[1])
+
+    found = set()
+    for limits, size in re.findall(
+        r"PLUS_MINUS_TOLERANCE\(#(\d+),#(\d+)\)", "".join(lines.values())
+    ):
+        lower, upper = re.findall(r"#(\d+)", lines[limits])
+        (told,) = (
+            one
+            for one in lines.values()
+            if one.startswith(f"DIMENSIONAL_CHARACTERISTIC_REPRESENTATION(#{size},")
+        )
+        shown = lines[re.findall(r"#(\d+)", told)[1]]
+        (value,) = re.findall(r"#(\d+)", shown.split("(", 1)[1])[:1]
+        diameter = float(re.search(r"POSITIVE_LENGTH_MEASURE\(([\d.E+-]+)\)", lines[value])[1])
+        found.add(tuple(round(one, 6) + 0.0 for one in (diameter, number(lower), number(upper))))
+    return found
+
+
+@pytest.mark.parametrize("name", ["carrier plate", "disc", "eccentric shaft", "ring clamp"])
+def test_bounds_of_a_size_have_the_sign_that_the_zone_has(name: str, tmp_path: Path) -> None:
+    """Read from the text: the kernel turns a sign when it writes, and again when it reads."""
+    part = part_named(known_parts("paper"), name)
+    path = tmp_path / "part.step"
+    write_part_step(known_design("paper"), part, path, "AP242")
+    zones = {(fit.zone, fit.diameter) for fit in part.fits}
+    expected = set()
+    for zone, diameter in zones:
+        limits = fit_limits(zone, diameter)
+        bounds = (1e3 * one for one in (diameter, limits.lower, limits.upper))
+        expected.add(tuple(round(one, 6) + 0.0 for one in bounds))
+    assert expected
+    assert expected <= bounds_in(path.read_text(encoding="ascii"))
 
 
 def read_back(path: Path) -> list[tuple[str, float, str, int]]:

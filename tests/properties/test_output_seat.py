@@ -22,10 +22,9 @@ from cqdd_design.gearbox.seated import Wall, raceway_share, seated_clearance
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.output_seat import ordered_clearance, seated_states
 from cqdd_design.machine.temperatures import MachineTemperatures, machine_temperatures
-from cqdd_design.sizing.hunt import Hunt
-from cqdd_design.sizing.plates import steel_carrier
-from cqdd_design.sizing.spaces import FITS
-from cqdd_design.sizing.stage_tables import stage_tables
+from cqdd_design.sizing.plates import with_sound_plate
+from cqdd_design.sizing.result import SizedDesign
+from cqdd_design.sizing.spaces import Found
 from cqdd_design.verdict.output_seat_line import output_seat_line, steel_helps
 from cqdd_design.verdict.screw_lines import screw_lines
 
@@ -198,18 +197,28 @@ def test_a_carrier_of_steel_is_one_everywhere(of_aluminium: Machine) -> None:
         steel.design.replacing({"reducer.carrier.material": "PC-CF FDM along layers"})
 
 
-def test_a_search_turns_to_steel_where_aluminium_presses(of_aluminium, warm, monkeypatch) -> None:
-    monkeypatch.setattr("cqdd_design.sizing.plates.judged_temperatures", lambda _: (warm, (), ()))
-    asked, said = of_aluminium.given.requirements, []
-    hunt = Hunt(asked, None, None, said.append, stage_tables(asked.ratio), "mass")
-    hunt.fit, hunt.lowered = FITS[1], True
+def test_a_search_ends_in_steel_where_aluminium_presses(of_aluminium, warm, monkeypatch) -> None:
+    """Of the same gearbox in all else; what is cool stays as it was found."""
+    seen: list[bool] = []
+
+    def judged(one: Machine):
+        seen.append(one.stiff)
+        return warm, (), ()
+
+    monkeypatch.setattr("cqdd_design.sizing.plates.judged_temperatures", judged)
     assert steel_helps(of_aluminium, warm)
-    assert steel_carrier(hunt, of_aluminium)
-    assert hunt.carrier_material == SHAFT_MATERIAL
-    assert (hunt.fit, hunt.lowered) == (FITS[0], False)
-    assert "carrier of steel" in said[0]
-    assert not steel_carrier(hunt, of_aluminium)
-    cool = np.full_like(warm.steady, 20.0)
-    calm = replace(warm, steady=cool)
-    monkeypatch.setattr("cqdd_design.sizing.plates.judged_temperatures", lambda _: (calm, (), ()))
-    assert not steel_carrier(Hunt(asked, None, None, print, hunt.tables, "mass"), of_aluminium)
+    sized = SizedDesign(of_aluminium.design, (), (), None, of_aluminium)
+    found = Found(None, None, {}, sized, None, True)
+    steel = with_sound_plate(found)
+    assert steel.sized.design.carrier_material == SHAFT_MATERIAL
+    assert steel.sized.machine.design == steel.sized.design == steel.sized.machine.given
+    as_it_was = steel.sized.design.replacing({"reducer.carrier.material": "auto"})
+    assert as_it_was == of_aluminium.design
+    assert steel.sized.checks == steel.sized.machine.analysis.checks
+    assert with_sound_plate(steel) is steel
+    assert seen == [True]
+    cool = replace(warm, steady=np.full_like(warm.steady, 20.0))
+    monkeypatch.setattr("cqdd_design.sizing.plates.judged_temperatures", lambda _: (cool, (), ()))
+    assert with_sound_plate(found) is found
+    monkeypatch.setattr("cqdd_design.sizing.plates.judged_temperatures", lambda _: (None, (), ()))
+    assert with_sound_plate(found) is found

@@ -495,6 +495,7 @@ def test_any_design_is_judged_as_it_was_found(monkeypatch: pytest.MonkeyPatch) -
         "promising": one,
         "motor_far_short": (),
         "learn": False,
+        "with_sound_plate": one,
         "drawing_ahead": nullcontext(),
         "look": (None, None),
         "last_look": None,
@@ -714,6 +715,7 @@ def test_clearance_that_is_asked_for_late_is_given_to_the_same_gearbox(
     monkeypatch.setattr(road + "last_look", lambda *_: None)
     monkeypatch.setattr(road + "given", lambda *_: roomier)
     monkeypatch.setattr(road + "judge", lambda _: SimpleNamespace(meets="yes"))
+    monkeypatch.setattr(road + "with_sound_plate", lambda one: one)
     monkeypatch.setattr(road + "drawing_ahead", lambda _: nullcontext())
     monkeypatch.setattr(road + "_result", lambda _, found, *more: found)
     monkeypatch.setattr(road + "_verified", lambda _, found, *more: found)

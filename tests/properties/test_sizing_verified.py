@@ -381,6 +381,7 @@ def test_a_refusal_tells_of_the_judged_design_that_came_nearest(
         "or_weaker": lambda *_: found,
         "motor_far_short": lambda *_: (),
         "learn": lambda *_: False,
+        "with_sound_plate": lambda one: one,
         "drawing_ahead": lambda _: nullcontext(),
         "look": lambda *_: (None, None),
         "last_look": lambda *_: None,

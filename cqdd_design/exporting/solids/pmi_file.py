@@ -82,7 +82,8 @@ class _Sheet:
         stated.SetType(kinds.XCAFDimTolObjects_DimensionType_Size_Diameter)
         stated.SetValue(size.diameter)
         stated.SetUpperTolValue(size.upper)
-        stated.SetLowerTolValue(size.lower)
+        # The kernel takes it as how far below, and writes its negative as the lower bound.
+        stated.SetLowerTolValue(-size.lower)
         XCAFDoc_Dimension.Set_s(label).SetObject(stated)
         self._tool.SetDimension(self._labels(size.faces), TDF_LabelSequence(), label)
 
