@@ -6,11 +6,13 @@ import tomllib
 
 import pytest
 
-from cqdd_design.design import Requirements, load_design
+from cqdd_design.design import Requirements, load_design, requirements_from_mapping
 from cqdd_design.design.requirements import LEAST_RATIO, MOST_RATIO
 from cqdd_design.roads.sized_file import STAMP, kept_costs, write_fresh
 from cqdd_design.sizing import size
+from cqdd_design.sizing.infeasible import SizingInfeasibleError
 from cqdd_design.sizing.result import Cost
+from cqdd_design.sizing.verified import size_to_verdict
 
 
 @pytest.mark.deep
@@ -145,16 +147,15 @@ def test_the_screen_alone_says_that_it_is_no_verdict(cqdd, tmp_path):
 
 
 @pytest.mark.deep
-def test_what_no_gearbox_carries_is_refused_by_the_equilibrium(cqdd, tmp_path):
-    """Closed forms allow it; the sentence says what is carried, and that much is."""
-    hard = ("--ratio", "10", "--peak-torque", "100 N*m", "--continuous-torque", "5 N*m")
-    motor = ("--current", "200 A", "--continuous-speed", "300 rpm", "--discs", "2")
-    done = cqdd("size", *hard, *motor, "--out", "hard.toml", "--json")
-    assert done.code == 3
-    assert not (tmp_path / "hard.toml").exists()
-    most = done.document["error"]["details"]["most_peak_torque_Nm"]
-    assert 40.0 < most < 100.0
-    assert "by the contact equilibrium" in done.document["error"]["message"]
+def test_what_no_gearbox_carries_is_refused_by_the_equilibrium():
+    """Closed forms allow it; the sentence says what is carried."""
+    hard = {
+        "ratio": 10, "disc_count": 2, "current": "200 A", "continuous_speed": "300 rpm",
+        "peak_torque": "100 N*m", "continuous_torque": "5 N*m",
+    }  # fmt: skip
+    with pytest.raises(SizingInfeasibleError, match="by the contact equilibrium") as refused:
+        size_to_verdict(requirements_from_mapping(hard), best_alone=True)
+    assert 40.0 < refused.value.most_torque < 100.0
 
 
 def test_every_written_value_says_its_origin(cqdd, tmp_path):

@@ -275,14 +275,12 @@ def test_sizing_finds_a_shaft_for_a_wide_bore() -> None:
         "continuous_torque": "3 N*m",
         "continuous_speed": "300 rpm",
     }
-    plain = size_to_verdict(requirements_from_mapping(asked))
-    wide = size_to_verdict(requirements_from_mapping(asked | {"bore": "9 mm"}))
-    holes = []
-    for found in (plain, wide):
-        assert found.verdict.meets == "yes"
-        holes.append(2e3 * found.verdict.evidence.machine.layout.shaft.bore_radius)
-    assert holes[0] < 9.0 - 1e-6 <= holes[1]
-    assert wide.sizing.objective.mass >= plain.sizing.objective.mass * 0.99
+    found = size_to_verdict(requirements_from_mapping(asked | {"bore": "9 mm"}))
+    assert found.verdict.meets == "yes"
+    machine = found.verdict.evidence.machine
+    assert 2e3 * machine.layout.shaft.bore_radius >= 9.0 - 1e-6
+    # Without it a bearing of 15 mm will do.
+    assert machine.cam.bore_diameter > 15e-3
 
 
 def test_the_examples_keep_their_shafts() -> None:
