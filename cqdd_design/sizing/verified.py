@@ -192,7 +192,10 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
                 found = finer(hunt, found)
                 continue
             # With elastic discs and ring, of which the looks before knew nothing.
-            sound, found = None, with_sound_plate(found)
+            sound, plain = None, found
+            found = with_sound_plate(plain)
+            if found is not plain:
+                progress("taking a carrier of steel: warm aluminium would press its bearing")
             with drawing_ahead(found.sized.machine):
                 can, step = look(hunt, found.sized.machine)
             if can is None and step is None:

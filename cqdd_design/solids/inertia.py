@@ -185,16 +185,23 @@ class GearboxInertia:
         motor = f"{self.motor.name} {self._by('mass')}, stator and rotor, {rotor_scope(self.motor)}"
         if not self.motor_missing:
             return (
-                f"gearbox, housing, cover and encoder as drawn, and {motor}, "
+                f"gearbox{self._carrier}, housing, cover and encoder as drawn, and {motor}, "
                 f"{self.group_masses['motor']:.4g} kg"
             )
-        drawn = f"gearbox and housing as drawn, {self.total.mass:.4g} kg"
+        drawn = f"gearbox{self._carrier} and housing as drawn, {self.total.mass:.4g} kg"
         if self.motor_by_catalogue is None:
             return f"{drawn}; without the motor, cover and encoder, which are not drawn"
         return (
             f"{drawn}, and {motor}, {self.motor_by_catalogue:.4g} kg; without cover and encoder, "
             "which are not drawn"
         )
+
+    @property
+    def _carrier(self) -> str:
+        """Of what the carrier is, where it is not of what the housing is."""
+        of = {one.name: one.material for one in self.parts}
+        plate = of.get("carrier plate")
+        return "" if plate in (None, of.get("housing")) else f" with a carrier of {plate}"
 
     def _by(self, field: str) -> str:
         return "as stated" if field in self.motor.stated else "by its catalogue"
