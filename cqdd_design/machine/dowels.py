@@ -25,6 +25,8 @@ class LoadedDowels:
     stress : DowelStress
     seat : Allowable
         Pressure that their seats bear.
+    metal : str
+        Key of what they sit in.
     """
 
     place: str
@@ -32,6 +34,7 @@ class LoadedDowels:
     torque: float
     stress: DowelStress
     seat: Allowable
+    metal: str
 
 
 def loaded_dowels(machine: Machine) -> tuple[LoadedDowels, ...]:
@@ -57,6 +60,7 @@ def loaded_dowels(machine: Machine) -> tuple[LoadedDowels, ...]:
                 torque,
                 along_a_seam(torque, count, layout.pack.ring_radius, size, ring.bearing_length),
                 dowel_limit_seat(metal, find_material(design.reducer.ring_material)),
+                "housing.material",
             )
         )
     if face.count:
@@ -67,7 +71,8 @@ def loaded_dowels(machine: Machine) -> tuple[LoadedDowels, ...]:
                 f"{face.count} of {1e3 * face.diameter:g} mm, {1e3 * face.depth:.3g} mm deep",
                 peak,
                 across_a_joint(peak, face.count, circle, face.diameter, face.depth),
-                dowel_limit_seat(metal),
+                dowel_limit_seat(find_material(design.carrier_material)),
+                "carrier.material",
             )
         )
     return tuple(found)

@@ -116,7 +116,7 @@ def flange_dowels(
 
     # A dowel stands in the face and in what is bolted to it, as deep in both.
     fitting = dowels_within(most, 2.0 * depth)
-    metal = design.housing.material
+    metal = design.carrier_material
     found = _enough(fitting, _FLANGE_COUNTS, stress, _seat_strength(metal, metal))
     if found is None:
         return FlangeDowels(0.0, 0.0, 0)

@@ -85,7 +85,7 @@ def _judged(found: tuple[LoadedDowels, ...]) -> tuple[Check, Check]:
     )
     return (
         _dowel("DOWEL-SHEAR", shear, "larger dowels ask for a thicker ring"),
-        _dowel("DOWEL-BEARING", press, "take a stronger housing.material or a larger ring"),
+        _dowel("DOWEL-BEARING", press, "take a stronger {metal} or a larger ring"),
     )
 
 
@@ -156,18 +156,24 @@ def _lacking(machine: Machine) -> str:
 
 
 def _dowel(name: str, every: list[tuple[LoadedDowels, float, Allowable]], cure: str) -> Check:
-    """The line of the dowels with least reserve, the others beside it."""
+    """The line of the dowels with least reserve, the others beside it.
+
+    Parameters
+    ----------
+    cure : str
+        With ``{metal}`` for the key of what these sit in.
+    """
     told = "; ".join(
         f"{one.place}: {one.size}, {value / _MEGA:.3g} of {limit.value / _MEGA:.3g} MPa under "
         f"{one.torque:.4g} N*m"
         for one, value, limit in every
     )
-    _, value, limit = min(every, key=lambda row: row[2].value / row[1])
+    worst, value, limit = min(every, key=lambda row: row[2].value / row[1])
     return build_check(
         name,
         value / _MEGA,
         limit.value / _MEGA if limit.value else None,
         told,
-        cure,
+        cure.format(metal=worst.metal),
         basis=limit.basis,
     )

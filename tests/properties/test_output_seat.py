@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -18,15 +19,18 @@ from cqdd_design.catalog.internal_clearance import Clearance, clearances, most_p
 from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.design import load_design
 from cqdd_design.errors import DesignError
+from cqdd_design.gearbox.heat.expansion import part_materials
 from cqdd_design.gearbox.seated import Wall, raceway_share, seated_clearance
 from cqdd_design.machine import Machine, resolve
+from cqdd_design.machine.dowels import loaded_dowels
 from cqdd_design.machine.output_seat import ordered_clearance, seated_states
+from cqdd_design.machine.screws import screw_joints
 from cqdd_design.machine.temperatures import MachineTemperatures, machine_temperatures
 from cqdd_design.sizing.plates import with_sound_plate
 from cqdd_design.sizing.result import SizedDesign
 from cqdd_design.sizing.spaces import Found
+from cqdd_design.verdict.creep_lines import creep_lines
 from cqdd_design.verdict.output_seat_line import output_seat_line, steel_helps
-from cqdd_design.verdict.screw_lines import screw_lines
 
 ROOT = Path(__file__).resolve().parents[2]
 STEEL, ALUMINIUM = find_material(SHAFT_MATERIAL), find_material("7075-T6")
@@ -191,10 +195,45 @@ def test_a_carrier_of_steel_is_one_everywhere(of_aluminium: Machine) -> None:
     # Seats in steel hold the pins more stiffly, threads in it hold more.
     soft, stiff = (one.contact.pin_series.max() for one in (of_aluminium, steel))
     assert stiff < soft
-    lines = {one.id: one for one in screw_lines(steel)}
-    assert lines["SCREW-SLIP"].known
+    threads = [
+        {one.place: one.clamping.tapped.name for one in screw_joints(machine)}
+        for machine in (of_aluminium, steel)
+    ]
+    assert set(threads[0].values()) == {"7075-T6"}
+    of_steel = {place for place, metal in threads[1].items() if metal == SHAFT_MATERIAL}
+    assert of_steel == {"output's face", "output pins in the carrier plate"}
+    dowels = [{one.place: one.seat.value for one in loaded_dowels(machine)} for machine in
+              (of_aluminium, steel)]  # fmt: skip
+    assert dowels[1]["output's face"] > dowels[0]["output's face"]
+    assert dowels[1]["ring in its seat"] == dowels[0]["ring in its seat"]
+    grown = [part_materials(machine.design)["carrier"] for machine in (of_aluminium, steel)]
+    assert grown == ["7075-T6", SHAFT_MATERIAL]
     with pytest.raises(DesignError, match="of which a carrier is made where the housing is"):
         steel.design.replacing({"reducer.carrier.material": "PC-CF FDM along layers"})
+
+
+def test_pins_of_a_ring_are_held_by_the_housing() -> None:
+    """Whatever the carrier is of."""
+    pinwheel = {
+        "reducer.ring_type": "pinwheel", "reducer.ring_pin_diameter": "4 mm",
+        "reducer.ring.roller_diameter": "8 mm", "reducer.ring.roller": "needle",
+    }  # fmt: skip
+    paper = load_design(ROOT / "designs" / "cqdd-10.toml").replacing(pinwheel)
+    plain = resolve(paper).contact.ring_pin_series
+    steel = resolve(paper.replacing({"reducer.carrier.material": SHAFT_MATERIAL}))
+    assert np.array_equal(steel.contact.ring_pin_series, plain)
+    housing = resolve(paper.replacing({"housing.material": SHAFT_MATERIAL}))
+    assert housing.contact.ring_pin_series.max() < plain.max()
+
+
+def test_a_carrier_of_metal_does_not_creep_in_a_printed_housing() -> None:
+    printed = load_design(ROOT / "designs" / "printed-13.toml")
+    told = []
+    for material in ("auto", SHAFT_MATERIAL):
+        machine = resolve(printed.replacing({"reducer.carrier.material": material}))
+        (line,) = (one for one in creep_lines(machine, ()) if one.id == "HOUSING-CREEP")
+        told.append(int(re.search(r"(\d+) places looked at", line.substituted)[1]))
+    assert told[1] < told[0]
 
 
 def test_a_search_ends_in_steel_where_aluminium_presses(of_aluminium, warm, monkeypatch) -> None:

@@ -159,7 +159,7 @@ class ContactModel(Stages):
         steel = find_material(reducer.disc_material)
         tooth = find_material(reducer.ring_material)
         pin = find_material(pins.material)
-        plate = find_material(design.carrier_material)
+        housing = find_material(design.housing.material)
         runner, rollers = pin_runner(design), ring_runner(design)
         films = tooth_film(design, temperature), pin_film(design, temperature)
         supported = reducer.cam_bearing.support_stiffness
@@ -204,7 +204,7 @@ class ContactModel(Stages):
             sleeve_coefficient=_inside(runner, pin),
             roller_play=0.0 if rollers is None else 0.5 * rollers.play,
             roller_coefficient=_inside(rollers, tooth),
-            ring_pin_series=None if rollers is None else _ring_pin_series(design, tooth, plate),
+            ring_pin_series=None if rollers is None else _ring_pin_series(design, tooth, housing),
             column_count=len(column_offsets(reducer)),
             cam_support=1.0 / supported if supported else 0.0,
         )
@@ -302,7 +302,7 @@ def _inside(runner: Runner | None, steel: Material) -> float:
     return own if runner.cage is None else float(own / runner.rows**0.9)
 
 
-def _ring_pin_series(design: Design, pin: Material, plate: Material) -> FloatArray:
+def _ring_pin_series(design: Design, pin: Material, housing: Material) -> FloatArray:
     """Compliance of a ring pin, held beyond the discs by housing and clamp, at every disc."""
     reducer = design.reducer
     beam = pin_in_stack(
@@ -310,7 +310,10 @@ def _ring_pin_series(design: Design, pin: Material, plate: Material) -> FloatArr
         reducer.disc_thickness,
         reducer.disc_spacing,
         pin_section(
-            reducer.ring_pin_diameter, pin.youngs_modulus, pin.poisson_ratio, plate.youngs_modulus
+            reducer.ring_pin_diameter,
+            pin.youngs_modulus,
+            pin.poisson_ratio,
+            housing.youngs_modulus,
         ),
         ("hinged", "hinged"),
     )
