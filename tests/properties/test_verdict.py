@@ -32,6 +32,7 @@ from cqdd_design.verdict.drawn import Allowed, good_gearboxes, used, yield_line
 from cqdd_design.verdict.judge import meets, sentence
 from cqdd_design.verdict.lines import verdict_lines
 from cqdd_design.verdict.motor import missing_figures, motor_lines
+from cqdd_design.verdict.output_seat_line import output_seat_line
 
 DESIGNS = Path(__file__).resolve().parents[2] / "designs"
 SAMPLES = 24
@@ -97,6 +98,14 @@ def test_at_its_limit_a_flank_lasts_just_the_hours(machine: Machine, judged: Ver
     assert turns <= borne * 1.02 <= 1.05 * part.cycles_per_output_turn * turns
     assert line.margin == pytest.approx(part.reserve)
     assert (line.margin >= 1.0) == part.lasts(life.required_hours)
+
+
+def test_the_output_bearing_is_judged_at_the_temperatures_of_the_verdict(
+    machine: Machine, judged: Verdict
+) -> None:
+    line = by_id(judged.lines)["OUTPUT-PRELOAD"]
+    assert line == output_seat_line(machine, judged.evidence.temperatures)
+    assert line.status == "fail"
 
 
 def test_lines_pass_exactly_where_the_life_does(machine: Machine, judged: Verdict) -> None:
