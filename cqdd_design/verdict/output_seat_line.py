@@ -6,8 +6,14 @@ from cqdd_design.catalog.bearings import SHAFT_MATERIAL
 from cqdd_design.catalog.internal_clearance import most_preload
 from cqdd_design.errors import CatalogError, GeometryError
 from cqdd_design.gearbox.checks.state import build_check
+from cqdd_design.gearbox.heat.expansion import REFERENCE
 from cqdd_design.machine import Machine
-from cqdd_design.machine.output_seat import grows_more, ordered_clearance, seated_states
+from cqdd_design.machine.output_seat import (
+    SeatedState,
+    grows_more,
+    ordered_clearance,
+    seated_states,
+)
 from cqdd_design.machine.temperatures import MachineTemperatures
 from cqdd_design.results import Check
 
@@ -43,7 +49,7 @@ def output_seat_line(machine: Machine, warm: MachineTemperatures | None = None) 
     missing = "temperatures are not known" if warm is None else warm.cold
     over = limit is not None and preload > limit
     known = over or not missing
-    cure = _cure(machine, warm) if over else "see THERMAL-RISE, which says what is not known"
+    cure = _cure(machine, warm, worst) if over else "see THERMAL-RISE, which says what is not known"
     return build_check(
         OUTPUT_PRELOAD,
         _UM * preload if known else None,
@@ -66,8 +72,9 @@ def steel_helps(machine: Machine, warm: MachineTemperatures | None) -> bool:
     return limit is not None and all(-one.seated.least <= limit for one in states)
 
 
-def _cure(machine: Machine, warm: MachineTemperatures | None) -> str:
-    plate = machine.design.carrier_material
-    if grows_more(plate) and steel_helps(machine, warm):
+def _cure(machine: Machine, warm: MachineTemperatures | None, worst: SeatedState) -> str:
+    if grows_more(machine.design.carrier_material) and steel_helps(machine, warm):
         return f"set carrier.material to '{SHAFT_MATERIAL}', which grows as the bearing does"
-    return "take a housing.material that grows as steel does, or less heat"
+    cold = worst.housing < REFERENCE
+    less = "a warmer environment.coldest" if cold else "less heat"
+    return f"take a housing.material that grows as steel does, or {less}"
