@@ -21,6 +21,7 @@ KEYS = {
 }
 
 
+@pytest.mark.deep
 def test_bending_is_bounded_in_the_document_and_in_the_text(cqdd, paper_design_file):
     done = cqdd("analyse", paper_design_file, "--angles", "24", "--json")
     assert done.code == 0, done.err

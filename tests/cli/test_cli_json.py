@@ -90,6 +90,7 @@ def test_a_report_replaces_its_own_page_and_shows_the_motor_of_the_file(
     assert "rewound of motor.toml" in text
 
 
+@pytest.mark.deep
 def test_the_time_is_that_of_the_environment(cqdd, paper_design_file):
     fixed = {"SOURCE_DATE_EPOCH": "1700000000"}
     first = cqdd("check", paper_design_file, "--json", environment=fixed)
@@ -153,6 +154,7 @@ def test_analyse_speed_moves_the_life(cqdd, paper_design_file):
     assert hours[0] == pytest.approx(2.0 * hours[1])
 
 
+@pytest.mark.deep
 def test_analyse_angles_are_the_points_of_the_curves(cqdd, paper_design_file):
     done = cqdd("analyse", paper_design_file, "--angles", "24", "--json").document
     assert len(done["results"]["rigid_series"]["crank_angle_deg"]) == 24

@@ -20,6 +20,7 @@ def motor_file(tmp_path):
     return path
 
 
+@pytest.mark.deep
 def test_check_judges_the_motor_of_the_file(cqdd, paper_design_file, motor_file):
     usual = {
         one["id"]: one for one in cqdd("check", paper_design_file, "--json").document["checks"]

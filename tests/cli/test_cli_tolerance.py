@@ -220,6 +220,7 @@ def _balances(contact: dict[str, list]) -> None:
             assert abs(moment) < 1e-9 * load * 32.0
 
 
+@pytest.mark.deep
 def test_interference_is_told_as_preload(cqdd, tmp_path: Path) -> None:
     design = changed(tmp_path, 'equidistant = "6 um"', 'equidistant = "-6 um"')
     done = cqdd("analyse", design, "--angles", "24", "--json")

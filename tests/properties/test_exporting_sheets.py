@@ -452,6 +452,7 @@ def test_a_motor_that_is_not_drawn_is_in_the_parts_list_as_in_the_bill(paper_des
     assert [row[2] for row in listed] == [row.part for row in bill]
 
 
+@pytest.mark.deep
 def test_no_line_runs_through_words(machine, paper_design_file):
     """Thin lines neither: leaders, axes and extension lines."""
     for flat in flat_parts(machine):

@@ -512,6 +512,7 @@ def test_traces_of_the_bench_cannot_be_changed() -> None:
     trace[0] = 5.0  # its maker's own array stays writable
 
 
+@pytest.mark.deep
 def test_a_figure_that_was_not_drawn_says_so() -> None:
     found = cq.analyse("cqdd-10")
     (line,) = (one for one in repr(found.verdict).splitlines() if "backlash" in one)

@@ -247,6 +247,7 @@ def unpacked(text: str, *, restored: bool = True) -> bytes:
     return bytes(content)
 
 
+@pytest.mark.deep
 def test_model_decodes_back_to_the_solids() -> None:
     parts = known_parts("paper")
     data = model("paper")

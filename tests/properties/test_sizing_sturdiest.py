@@ -138,6 +138,7 @@ def test_a_bearing_of_which_no_reserve_is_known_is_nearly_sound_too(
     assert len(seen) == 1
 
 
+@pytest.mark.deep
 def test_one_that_jams_is_judged_again_with_more_clearance(
     light: Found, monkeypatch: pytest.MonkeyPatch
 ) -> None:
