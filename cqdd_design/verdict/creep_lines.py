@@ -114,7 +114,9 @@ def _housing(machine: Machine, plastic: Material) -> Check:
     """
     name, limit = "HOUSING-CREEP", 100.0 * DESIGN_STRAIN
     try:
-        places = [one for one in held_stresses(machine) if one.part in _of(machine, plastic)]
+        # A carrier may be of metal in a housing that is not.
+        own = {part.name for part in machine.parts if part.material == plastic.name}
+        places = [one for one in held_stresses(machine) if one.part in own]
     except (CatalogError, ContactError, GeometryError) as error:
         return build_check(name, None, limit, error.message, "see why it is not known")
     modulus = plastic.creep_modulus or plastic.youngs_modulus
@@ -134,11 +136,6 @@ def _housing(machine: Machine, plastic: Material) -> Check:
         "(see cqdd-design catalog materials)",
         basis=plastic.creep_source or f"modulus of {plastic.name}, without its creep",
     )
-
-
-def _of(machine: Machine, plastic: Material) -> set[str]:
-    """Names of the parts of a plastic: a carrier may be of metal in a housing that is not."""
-    return {part.name for part in machine.parts if part.material == plastic.name}
 
 
 def _place(one: HeldStress) -> str:

@@ -23,6 +23,7 @@ from cqdd_design.exporting.sheets.part_facts import PartFacts
 from cqdd_design.exporting.sheets.part_sheet import draw_part
 from cqdd_design.geometry.contours import ArcContour, Circle, PlanarPart
 from cqdd_design.machine import Machine, resolve
+from cqdd_design.sizing import size
 from cqdd_design.sizing.refusals import nothing
 from cqdd_design.sizing.shafts import weak_lines
 from cqdd_design.sizing.verified import new_hunt, size_to_verdict
@@ -278,9 +279,11 @@ def test_sizing_finds_a_shaft_for_a_wide_bore() -> None:
     found = size_to_verdict(requirements_from_mapping(asked | {"bore": "9 mm"}))
     assert found.verdict.meets == "yes"
     machine = found.verdict.evidence.machine
-    assert 2e3 * machine.layout.shaft.bore_radius >= 9.0 - 1e-6
-    # Without it a bearing of 15 mm will do.
-    assert machine.cam.bore_diameter > 15e-3
+    # What closed forms make of it without a bore: lighter, and with less of a way through.
+    plain = size(requirements_from_mapping(asked))
+    holes = [2e3 * one.layout.shaft.bore_radius for one in (plain.machine, machine)]
+    assert holes[0] < 9.0 - 1e-6 <= holes[1]
+    assert found.sizing.objective.mass >= plain.objective.mass * 0.99
 
 
 def test_the_examples_keep_their_shafts() -> None:

@@ -94,13 +94,17 @@ def test_what_is_left_is_that_of_a_calculation_by_hand() -> None:
 
 
 @given(
-    st.sampled_from([one for one in bearings().values() if clearances(one)]),
+    st.sampled_from(
+        [
+            one
+            for one in bearings().values()
+            if clearances(one) and one.bore_diameter >= 20e-3 and one.outer_diameter <= 0.25
+        ]
+    ),
     st.floats(-40.0, 120.0),
     st.floats(1.0, 40.0),
 )
 def test_a_warmer_plate_of_aluminium_never_leaves_more(row, temperature, more) -> None:
-    if row.bore_diameter < 20e-3 or row.outer_diameter > 0.25:
-        return
     clearance = clearances(row)[-1]
     within = Wall("H7", row.outer_diameter, ALUMINIUM, 20.0)
 
@@ -109,7 +113,6 @@ def test_a_warmer_plate_of_aluminium_never_leaves_more(row, temperature, more) -
         return seated_clearance(row, clearance, on, within).mean
 
     assert left(ALUMINIUM, temperature + more) < left(ALUMINIUM, temperature)
-    assert clearance.least < clearance.most
     # Beyond what its own ring takes by being warmer than the other, steel takes next to nothing.
     own = RINGS.expansion * 0.5 * (row.bore_diameter + row.outer_diameter) * more
     took = left(STEEL, temperature) - left(STEEL, temperature + more)
