@@ -13,8 +13,11 @@ from types import MappingProxyType
 
 from cqdd_design.errors import CatalogError, DesignError
 from cqdd_design.gearbox.checks.allowables import BINDING_OVERLAP
+from cqdd_design.gearbox.heat.network import ThermalNetwork
+from cqdd_design.machine.cooling import cooled_network
 from cqdd_design.machine.cures import ROUGHLY, most_that_holds
 from cqdd_design.machine.machine import Machine
+from cqdd_design.machine.settling import SEARCHED_STILL
 from cqdd_design.machine.temperatures import MachineTemperatures, machine_temperatures
 
 _SLOWEST = math.pi / 30.0
@@ -52,12 +55,12 @@ def lasting_torque(
     GeometryError
         When the network is not known.
     """
-    turning = _turning(machine, speed)
+    turning, network = _turning(machine, speed), cooled_network(machine)
     known = dict(told)
 
     def margin(torque: float) -> float:
         if torque not in known:
-            known[torque] = _margin(turning, torque, free=free)
+            known[torque] = _margin(turning, network, torque, free=free)
         return known[torque]
 
     return most if margin(most) >= 1.0 else most_that_holds(margin, tuple(known), ROUGHLY)
@@ -68,12 +71,12 @@ def lasting_speed(machine: Machine, most: float, *, free: bool = True) -> float:
 
     Under the continuous torque; see :func:`lasting_torque`.
     """
-    torque = machine.design.requirements.continuous_torque
+    torque, network = machine.design.requirements.continuous_torque, cooled_network(machine)
     known: dict[float, float] = {}
 
     def margin(speed: float) -> float:
         if speed not in known:
-            known[speed] = _margin(_turning(machine, speed), torque, free=free)
+            known[speed] = _margin(_turning(machine, speed), network, torque, free=free)
         return known[speed]
 
     return most if margin(most) >= 1.0 else most_that_holds(margin, tuple(known), ROUGHLY)
@@ -101,14 +104,16 @@ def _turning(machine: Machine, speed: float) -> Machine:
     """
     other = machine.changed({"requirements.continuous_speed": max(speed, _SLOWEST)})
     vars(other).update(contact=machine.contact, bodies=machine.bodies)
+    other.loses_as(machine)
     return other
 
 
-def _margin(machine: Machine, torque: float, *, free: bool) -> float:
+def _margin(machine: Machine, network: ThermalNetwork, torque: float, *, free: bool) -> float:
     """Of the machine under a torque, N m."""
     peak = max(machine.design.requirements.peak_torque, torque)
     try:
-        held = machine_temperatures(machine.under(peak=peak, continuous=torque), duty=False)
+        under = machine.under(peak=peak, continuous=torque)
+        held = machine_temperatures(under, duty=False, still=SEARCHED_STILL, network=network)
         return margin_of(held, free=free)
     except (CatalogError, DesignError):
         return 0.0

@@ -167,7 +167,14 @@ class Machine:
         torques = {"requirements.peak_torque": most, "requirements.continuous_torque": steady}
         other = replace(self.changed(torques), duty_share=duty_share)
         vars(other).update(contact=self.contact, bodies=self.bodies)
+        if most == asked.peak_torque:
+            other.loses_as(self)
         return other
+
+    def loses_as(self, other: Machine) -> None:
+        """Have the losses of the same parts up to the same peak torque, where they are known."""
+        if "losses" in vars(other):
+            vars(self).update(losses=other.losses)
 
     def loaded(self, peak: float) -> Machine:
         """The machine under another peak torque, N m, laid out as it is: dowels, screws, bearings.

@@ -22,9 +22,12 @@ from cqdd_design.machine.heat_nodes import NODES, Node, by_node
 from cqdd_design.machine.machine import Machine
 
 _GEARBOX: tuple[Node, ...] = ("ring", "disc", "shaft", "carrier")
-_ROUNDS, _STILL, _NEARLY_STILL = 60, 1e-6, 5e-2
-"""Of the search, and K by which temperatures may still move; with rigid bodies, whose losses are
-good to a per cent."""
+_ROUNDS = 60
+"""Of the search."""
+STILL, SEARCHED_STILL, _NEARLY_STILL = 1e-6, 1e-2, 5e-2
+"""K by which temperatures may still move: of what is judged; where a torque or a resistance is
+looked for that leaves parts as cool as they have to be; with rigid bodies, whose losses are good to
+a per cent."""
 _MOST_GAIN = 0.8
 """Of temperature by temperature that the search counts on."""
 _EDGE = 1e-6
@@ -60,7 +63,9 @@ def magnets_at(machine: Machine, values: FloatArray) -> float:
     return min(float(values[NODES.index("rotor")]), machine.motor.winding_most)
 
 
-def settle(machine: Machine, network: ThermalNetwork, lost: Losing) -> tuple[DutyHeat, FloatArray]:
+def settle(
+    machine: Machine, network: ThermalNetwork, lost: Losing, still: float = STILL
+) -> tuple[DutyHeat, FloatArray]:
     """Losses and temperatures (N,), deg C, that are each other's.
 
     Parameters
@@ -71,6 +76,8 @@ def settle(machine: Machine, network: ThermalNetwork, lost: Losing) -> tuple[Dut
         Losses of it at temperatures. Parts beyond 200 deg C, where nothing is worked with, lose
         what they do on the way there, the warmest at 200; so do magnets beyond what the winding
         bears.
+    still : float
+        K by which temperatures may still move; those of rigid bodies may by more.
 
     Raises
     ------
@@ -80,7 +87,7 @@ def settle(machine: Machine, network: ThermalNetwork, lost: Losing) -> tuple[Dut
         Where no such temperatures are found.
     """
     now = np.full(len(NODES), network.ambient)
-    still = _NEARLY_STILL if machine.stiff else _STILL
+    still = max(still, _NEARLY_STILL) if machine.stiff else still
     step, before, gain = np.zeros(now.shape), now, 0.0
     for _ in range(_ROUNDS):
         warm = machine.at(gearbox_parts(within_reach(now, network.ambient)))

@@ -37,6 +37,8 @@ from cqdd_design.machine.duty_heat import DutyHeat, duty_cases, duty_heat, logge
 from cqdd_design.machine.heat_nodes import NODES, Node, by_node
 from cqdd_design.machine.machine import Machine
 from cqdd_design.machine.settling import (
+    SEARCHED_STILL,
+    STILL,
     gearbox_parts,
     hottest_part,
     magnets_at,
@@ -241,20 +243,30 @@ class MachineTemperatures:
         }
 
 
-def machine_temperatures(machine: Machine, *, duty: bool = True) -> MachineTemperatures:
+def machine_temperatures(
+    machine: Machine,
+    *,
+    duty: bool = True,
+    still: float = STILL,
+    network: ThermalNetwork | None = None,
+) -> MachineTemperatures:
     """Steady temperatures at the duty of the requirements, or at the continuous torque.
 
     Parameters
     ----------
     duty : bool
         Whether the duty of the requirements counts, where there is one.
+    still : float
+        K by which they may still move.
+    network : ThermalNetwork, optional
+        Of the same parts under other torques, which it does not hang on.
 
     Raises
     ------
     GeometryError, DesignError, ContactError
         When the network or the losses are not known.
     """
-    network = cooled_network(machine)
+    network = network or cooled_network(machine)
     log = machine.design.requirements.duty_log if duty else None
     cases = duty_cases(machine, duty=duty)
 
@@ -267,7 +279,7 @@ def machine_temperatures(machine: Machine, *, duty: bool = True) -> MachineTempe
     found = MachineTemperatures(machine, network, as_drawn, network.steady(as_drawn.heat), as_drawn)
     warm, magnets = machine, COPPER_REFERENCE
     try:
-        heat, steady = settle(machine, network, lost)
+        heat, steady = settle(machine, network, lost, still)
         found = replace(found, duty=heat, steady=steady)
         warm, magnets = machine.at(gearbox_parts(found.reached)), magnets_at(machine, steady)
     except (ContactError, DesignError, GeometryError) as error:
@@ -318,7 +330,8 @@ def enough_cooling(found: MachineTemperatures) -> float:
     def at(resistance: float) -> tuple[Check, ...]:
         stated = machine.changed({"drive.thermal_resistance": resistance})
         vars(stated).update(contact=machine.contact, bodies=machine.bodies)
-        cooled = machine_temperatures(stated)
+        stated.loses_as(machine)
+        cooled = machine_temperatures(stated, still=SEARCHED_STILL)
         return () if cooled.cold else (_rise(cooled),)
 
     (enough,) = torques_that_hold(at, now, (_rise(found),), every=True, near=_NEAR_ENOUGH).values()

@@ -113,7 +113,7 @@ def solve_raised(
     return status, steps + used, torsional
 
 
-@numba.njit(cache=True, error_model="numpy")
+@numba.njit(cache=True, error_model="numpy", nogil=True)
 def rub_sweep(
     contacts: Contacts,
     springs: Springs,
