@@ -136,6 +136,12 @@ class CamBearing(FrozenModel):
     ] = default("0 N/um")
 
 
+class SupportBearing(FrozenModel):
+    """The bearings at both ends of the eccentric shaft; "auto" is what of the catalogue fits."""
+
+    designation: BearingName = "auto"
+
+
 class Carrier(FrozenModel):
     """What the carrier's plate and cap are of, and how they are joined, where both hold the pins.
 
@@ -284,6 +290,7 @@ class Reducer(FrozenModel):
     modification: Modification = Modification()
     output_pins: OutputPins
     cam_bearing: CamBearing = CamBearing()
+    support_bearing: SupportBearing = SupportBearing()
     carrier: Carrier = Carrier()
     carrier_bearing: CarrierBearing = CarrierBearing()
     ring: Ring

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 from cqdd_design.catalog.bearings import SHAFT_MATERIAL
-from cqdd_design.machine import resolve
 from cqdd_design.machine.temperatures import judged_temperatures
 from cqdd_design.sizing.spaces import Found
 from cqdd_design.verdict.output_seat_line import output_seat_line, steel_helps
@@ -30,16 +29,4 @@ def with_sound_plate(found: Found) -> Found:
     line = output_seat_line(rigid, warm)
     if not line.known or line.margin >= _SURE or not steel_helps(rigid, warm):
         return found
-    design = sized.design.replacing({_MATERIAL: SHAFT_MATERIAL})
-    machine = resolve(design, sized.machine.motor)
-    analysis = machine.analysis
-    return replace(
-        found,
-        sized=replace(
-            sized,
-            design=design,
-            machine=machine,
-            checks=analysis.checks,
-            warnings=analysis.warnings,
-        ),
-    )
+    return replace(found, sized=sized.remade({_MATERIAL: SHAFT_MATERIAL}))

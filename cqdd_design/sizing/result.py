@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
+from typing import Any
 
 from cqdd_design.design import Design
 from cqdd_design.errors import UsageError
@@ -86,6 +88,19 @@ class SizedDesign:
     warnings: tuple[str, ...]
     objective: Objective
     machine: Machine = field(compare=False, repr=False)
+
+    def remade(self, changes: Mapping[str, Any]) -> SizedDesign:
+        """The same gearbox with other values of some dotted keys, checked anew."""
+        design = self.design.replacing(changes)
+        machine = resolve(design, self.machine.motor)
+        analysis = machine.analysis
+        return replace(
+            self,
+            design=design,
+            machine=machine,
+            checks=analysis.checks,
+            warnings=analysis.warnings,
+        )
 
     def to_dict(self) -> dict[str, object]:
         """The JSON form: the sizes that differ between alternatives, and the objective."""

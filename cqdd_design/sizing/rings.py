@@ -10,7 +10,7 @@ from cqdd_design.errors import InfeasibleError
 from cqdd_design.sizing.agreement import settled
 from cqdd_design.sizing.hunt import CAM, Hunt
 from cqdd_design.sizing.known import key_of, near_by, note
-from cqdd_design.sizing.shafts import weak_lines
+from cqdd_design.sizing.shafts import with_sound_ends
 from cqdd_design.sizing.spaces import Found, Space
 
 _STEPS = (0.01, 0.005)
@@ -108,7 +108,7 @@ class Rings:
         if held is not None and held.weak:
             # Held fast, what is lighter won; what was free may leave the shaft's ends more room.
             space = self._space._replace(ring_limit=found.ring)
-            free = replace(found, space=space, weak=weak_lines(found.sized.machine))
+            free = with_sound_ends(replace(found, space=space))
             if not free.weak:
                 self._tried[found.ring] = held = free
         return held or self.at(min(_ROOMIER * found.ring, self._most))
@@ -121,7 +121,7 @@ class Rings:
         rounds = _FIRST_ROUNDS if self._point is None else _ROUNDS
         found = self._settled(self._space._replace(ring_limit=ring), rounds)
         if found is not None:
-            found = replace(found, weak=weak_lines(found.sized.machine))
+            found = with_sound_ends(found)
         self._tried[ring] = found
         return found
 

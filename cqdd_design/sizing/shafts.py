@@ -16,6 +16,7 @@ import numpy as np
 
 from cqdd_design.errors import DesignError, GeometryError
 from cqdd_design.machine import Machine
+from cqdd_design.machine.end_bearing import on_stronger_ends
 from cqdd_design.results import Check
 from cqdd_design.sizing.able import PEAK
 from cqdd_design.sizing.bearable import JUST, bearable, weaker
@@ -41,6 +42,8 @@ SHAFT = AT_PEAK | ANY_TORQUE | {"SHAFT-FATIGUE", "SUPPORT-LIFE"} | BONDS
 """Lines that a cam bearing with a wider bore helps."""
 THICKNESS = frozenset({"SHAFT-STRENGTH", "SHAFT-FATIGUE"})
 """Lines that a thinner shaft does worse."""
+_ENDS_ALONE = frozenset({ENDS, "SUPPORT-LIFE"})
+_END = "reducer.support_bearing.designation"
 _SHORT = frozenset({"fail", "unknown"})
 _THROW = "reducer.eccentricity"
 _LEAST_THROW, _THROW_STEP = 0.6, 0.005
@@ -60,6 +63,24 @@ def weak_lines(machine: Machine) -> tuple[Check, ...]:
     hung = (one for one in rotor_lines(rigid) if one.status == "fail")
     bore = bore_line(rigid)
     return (*short, *hung, *((bore,) if bore is not None and bore.status == "fail" else ()))
+
+
+def with_sound_ends(found: Found) -> Found:
+    """The design with its weak lines; where its shaft's bearings alone bear too little, on others.
+
+    Those with the largest bore leave the thickest journals, but thin ones bear little: where
+    another that fits bears enough on a journal that does, the gearbox stays as it is.
+    """
+    sized = found.sized
+    found = replace(found, weak=weak_lines(sized.machine))
+    if not found.weak or not {line.id for line in found.weak} <= _ENDS_ALONE:
+        return found
+    for other in on_stronger_ends(replace(sized.machine, stiff=True)):
+        if weak_lines(other):
+            continue
+        named = other.seats[0].bearing.designation
+        return replace(found, sized=sized.remade({_END: named}), weak=())
+    return found
 
 
 def stronger_shaft(hunt: Hunt, found: Found, every: Iterable[Check]) -> None:

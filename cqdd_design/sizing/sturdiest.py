@@ -32,7 +32,7 @@ from cqdd_design.sizing.plates import with_sound_plate
 from cqdd_design.sizing.points import Points
 from cqdd_design.sizing.refine import Starts, climb
 from cqdd_design.sizing.search import Search
-from cqdd_design.sizing.shafts import weak_lines
+from cqdd_design.sizing.shafts import with_sound_ends
 from cqdd_design.sizing.spaces import Found, Space, closer, spaces
 from cqdd_design.verdict import Verdict, judge
 
@@ -134,7 +134,10 @@ def _strongest(hunt: Hunt, space: Space) -> tuple[float, Found] | None:
     if strong is None or (reserve := strong.reserve(hunt)) < _CLOSE:
         return None
     found = strong.found(replace(hunt, usual={}), space)
-    if found is None or not found.rated or weak_lines(found.sized.machine):
+    if found is None or not found.rated:
+        return None
+    found = with_sound_ends(found)
+    if found.weak:
         return None
     return reserve, found
 

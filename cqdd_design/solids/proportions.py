@@ -52,8 +52,13 @@ from cqdd_design.solids.selection import (
     named_output_bearing,
     output_bearing,
     output_pin,
-    support_bearing,
     thread_size,
+)
+from cqdd_design.solids.shaft_bearings import (
+    ShaftRoom,
+    fitting_support_bearings,
+    named_support_bearing,
+    support_bearing,
 )
 
 _FLOOR, _LEAST_FLOOR = 2.5, 1.5
@@ -134,10 +139,25 @@ def seat_bearings(design: Design, cam_bearing: Bearing) -> tuple[ChosenBearing, 
     GeometryError
         When the disc cannot exist.
     """
+    return _seats(design, *_with_core(design, cam_bearing))
+
+
+def shaft_bearings(design: Design, cam_bearing: Bearing) -> tuple[ChosenBearing, ...]:
+    """Catalogue bearings that go on both ends of the shaft, what a layout prefers first.
+
+    Raises
+    ------
+    GeometryError
+        When the disc cannot exist.
+    """
+    return fitting_support_bearings(_rooms(design, *_with_core(design, cam_bearing))[0])
+
+
+def _with_core(design: Design, cam_bearing: Bearing) -> tuple[PackLayout, OutputPin, float, float]:
     unit = _unit(design)
     pack = _pack(design, cam_bearing, unit)
     core = max(_core_radius(pack), _least_core(pack))
-    return _seats(design, pack, output_pin(design.reducer.output_pins.diameter), core, unit)
+    return pack, output_pin(design.reducer.output_pins.diameter), core, unit
 
 
 def carrier_bearings(design: Design, cam_bearing: Bearing) -> tuple[ChosenBearing, ...]:
@@ -160,20 +180,33 @@ def _unit(design: Design) -> Unit:
 def _seats(
     design: Design, pack: PackLayout, pin: OutputPin, core: float, unit: float
 ) -> tuple[ChosenBearing, ChosenBearing]:
+    onto, around = _rooms(design, pack, pin, core, unit)
+    support = design.reducer.support_bearing.designation
+    output = design.reducer.carrier_bearing.designation
+    return (
+        support_bearing(onto)
+        if support == AUTO
+        else named_support_bearing(find_bearing(support), onto),
+        output_bearing(around, unit)
+        if output == AUTO
+        else named_output_bearing(find_bearing(output), around),
+    )
+
+
+def _rooms(
+    design: Design, pack: PackLayout, pin: OutputPin, core: float, unit: float
+) -> tuple[ShaftRoom, Room]:
+    """Of the bearings at the shaft's ends, and of the carrier's."""
     pins = design.reducer.output_pins
     circle, radius = pins.circle_radius, reach_beside_circle(design.reducer)
     heads = max(counterbore_radius(pin), column_head_radius(design.reducer), radius)
-    support = support_bearing(
+    onto = ShaftRoom(
         2.0 * core,
         max(0.4e-3, 0.16 * core),
         min(pack.cam.bearing.outer_diameter, 2.0 * (circle - radius - unit)),
         2.0 * (circle - heads - pin_wall(pins.diameter, unit) - 2.3 * unit),
     )
-    room = _carrier_room(design, pack, unit)
-    named = design.reducer.carrier_bearing.designation
-    if named == AUTO:
-        return support, output_bearing(room, unit)
-    return support, named_output_bearing(find_bearing(named), room)
+    return onto, _carrier_room(design, pack, unit)
 
 
 def _carrier_room(design: Design, pack: PackLayout, unit: float) -> Room:

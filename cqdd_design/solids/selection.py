@@ -15,8 +15,6 @@ from cqdd_design.catalog.bearings import BEARING_MATERIAL, Bearing, bearings
 from cqdd_design.catalog.cap_screws import cap_screw_mass
 from cqdd_design.catalog.screws import ShoulderScrew, find_shoulder_screw, mean_pin_diameter
 from cqdd_design.errors import CatalogError, GeometryError
-from cqdd_design.solids.features.edges import FACE_SHARE
-from cqdd_design.solids.features.making import SHAFT_RIM
 
 RING_SHARE = 0.3
 """Height of a bearing's ring as a share of its radial section, for shoulders and envelopes."""
@@ -96,60 +94,6 @@ class ChosenBearing:
         return BUSH_MATERIAL if self.source == "bush" else BEARING_MATERIAL
 
 
-def support_bearing(
-    most_bore: float, least_step: float, most_outer_diameter: float, nested_diameter: float
-) -> ChosenBearing:
-    """The bearing that carries one end of the eccentric shaft.
-
-    Opposed discs load the two support bearings with a couple, so rating counts: of the ball
-    bearings with the largest bore that fits, the one of highest static rating.
-
-    Parameters
-    ----------
-    most_bore : float
-        Diameter of the shaft's shoulder, m.
-    least_step : float
-        By how much the journal must be below the shoulder, on the diameter, m; the ring's chamfer
-        may need more.
-    most_outer_diameter : float
-        Room in the carrier plate, m.
-    nested_diameter : float
-        Room inside the carrier cap, m: a bearing within it shortens the machine and is preferred.
-
-    Returns
-    -------
-    ChosenBearing
-        A bronze bush where no bearing fits.
-    """
-    fitting = [
-        row
-        for row in bearings().values()
-        if row.kind == "ball"
-        and row.static_rating is not None
-        and row.bore_diameter <= most_bore - least_step + 1e-9
-        and row.outer_diameter <= most_outer_diameter + 1e-9
-        and row.width <= 0.9 * row.bore_diameter
-        and row.bore_diameter <= most_bore - 2.0 * _least_shoulder(row.largest_chamfer) + 1e-9
-    ]
-    fitting = [r for r in fitting if r.outer_diameter <= nested_diameter + 1e-9] or fitting
-    if fitting:
-        best = min(
-            fitting,
-            key=lambda row: (-row.bore_diameter, -(row.static_rating or 0.0), row.designation),
-        )
-        return ChosenBearing(best)
-    bore = _rounded_down(most_bore - least_step, 0.1e-3)
-    outer = min(1.3 * bore + 1e-3, most_outer_diameter)
-    width = 0.6 * bore
-    name = f"bush {bore * 1e3:.3g} x {outer * 1e3:.3g} x {width * 1e3:.3g} mm"
-    return _made(name, bore, outer, width, "bush")
-
-
-def _least_shoulder(chamfer: float) -> float:
-    """Height of a shaft's shoulder that reaches past a chamfer (m) at its limits, m."""
-    return (chamfer + 0.5 * SHAFT_RIM) / (1.0 - FACE_SHARE)
-
-
 class Room(NamedTuple):
     """What bearings between carrier and housing have to go into, m.
 
@@ -211,7 +155,7 @@ def output_bearing(room: Room, unit: float) -> ChosenBearing:
     section = max(2.5 * unit, 0.055 * bore)
     outer, width = bore + 2.0 * section, 1.1 * section
     name = f"thin section {bore * 1e3:.4g} x {outer * 1e3:.4g} x {width * 1e3:.3g} mm, to order"
-    return _made(name, bore, outer, width, "to order")
+    return made_bearing(name, bore, outer, width, "to order")
 
 
 def named_output_bearing(row: Bearing, room: Room) -> ChosenBearing:
@@ -251,8 +195,8 @@ def named_output_bearing(row: Bearing, room: Room) -> ChosenBearing:
     return chosen
 
 
-def _made(name: str, bore: float, outer: float, width: float, source: str) -> ChosenBearing:
-    """A bearing that the catalogue does not have."""
+def made_bearing(name: str, bore: float, outer: float, width: float, source: str) -> ChosenBearing:
+    """A bearing that the catalogue does not have; sizes in m."""
     said = "proportions of the layout"
     made = Bearing(
         name, "ball", bore, outer, width,
@@ -267,7 +211,8 @@ def _bulk(row: Bearing) -> tuple[float, str]:
     return (round(area * row.width, 12), row.designation)
 
 
-def _rounded_down(value: float, step: float) -> float:
+def rounded_down(value: float, step: float) -> float:
+    """The next multiple of a step below a value."""
     return round(math.floor(round(value / step, 6)) * step, 9)
 
 

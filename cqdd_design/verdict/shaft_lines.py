@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -25,6 +26,7 @@ from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.machine import Machine
 from cqdd_design.machine.carrier_bearing import bearing_for_loads
 from cqdd_design.machine.cures import ROUGHLY, SEARCHED_CASES, torques_that_hold
+from cqdd_design.machine.end_bearing import on_stronger_ends
 from cqdd_design.machine.output_loads import output_loads
 from cqdd_design.machine.rotor_overhang import rotor_overhang
 from cqdd_design.machine.shaft_strength import (
@@ -52,9 +54,10 @@ def shaft_lines(machine: Machine) -> tuple[Check, ...]:
     try:
         peak, duty = machine.peak_pack, machine.life.pack
         rotor = _rotor(machine)
+        ends = _other_ends(machine, peak, duty, rotor)
         return (
-            *_cured(machine, peak, duty, rotor),
-            _support_life_cured(machine, duty, rotor),
+            *_cured(machine, peak, duty, rotor, ends),
+            _support_life_cured(machine, duty, rotor, ends),
             *_output(machine, peak, duty, rotor),
         )
     except (CatalogError, ContactError, GeometryError) as error:
@@ -67,12 +70,32 @@ AT_PEAK = ("SHAFT-STRENGTH", "SUPPORT-STATIC", "OUTPUT-STATIC")
 _OVER_DUTY = ("SHAFT-FATIGUE", "SUPPORT-LIFE", "OUTPUT-LIFE")
 
 
+def _other_ends(machine: Machine, peak: PackLoads, duty: PackLoads, rotor: _Rotor) -> str:
+    """What to do where the bearings at the shaft's ends bear too little."""
+
+    def passes(one: Machine, held: _Rotor) -> bool:
+        lines = _support_static(one, peak, held), _support_life(one, duty, held)
+        return all(line.status == "pass" for line in lines)
+
+    # Of a look in a search nobody reads remedies.
+    if machine.stiff or passes(machine, rotor):
+        return _WIDER
+    weak = {line.id for line in _strength(machine, peak, duty) if line.status != "pass"}
+    for other in on_stronger_ends(machine):
+        with suppress(CatalogError, GeometryError):
+            thinner = {line.id for line in _strength(other, peak, duty) if line.status != "pass"}
+            if thinner <= weak and passes(other, _rotor(other)):
+                named = other.seats[0].bearing.designation
+                return f"set support_bearing.designation to '{named}', or {_WIDER}"
+    return _WIDER
+
+
 def _cured(
-    machine: Machine, peak: PackLoads, duty: PackLoads, rotor: _Rotor
+    machine: Machine, peak: PackLoads, duty: PackLoads, rotor: _Rotor, ends: str
 ) -> tuple[Check, Check, Check]:
     """Strength, fatigue and static safety, with torques at which those that fail would hold."""
     strength, fatigue = _strength(machine, peak, duty)
-    static = _support_static(machine, peak, rotor)
+    static = _support_static(machine, peak, rotor, ends)
     if machine.stiff:
         # Of a look in a search nobody reads remedies.
         return strength, fatigue, static
@@ -166,7 +189,9 @@ def shaft_at_peak(machine: Machine, duty: PackLoads) -> tuple[Check, Check, Chec
     )
 
 
-def _support_static(machine: Machine, peak: PackLoads, rotor: _Rotor) -> Check:
+def _support_static(
+    machine: Machine, peak: PackLoads, rotor: _Rotor, remedy: str = _WIDER
+) -> Check:
     asked, chosen = machine.design.requirements, machine.seats[0]
     discs, seat = support_loads(machine, peak).max(axis=(0, 1)), chosen.bearing
     both = discs + rotor.on_bearings
@@ -184,23 +209,23 @@ def _support_static(machine: Machine, peak: PackLoads, rotor: _Rotor) -> Check:
         STATIC_SAFETY,
         f"{seat.designation}: {seat.static_rating:.0f} N/{most:.1f} N = {safety:.3f} at "
         f"{asked.peak_torque:g} N*m, {rotor.told(int(both.argmax()))}",
-        _WIDER,
+        remedy,
     )
 
 
-def _support_life(machine: Machine, duty: PackLoads, rotor: _Rotor) -> Check:
+def _support_life(machine: Machine, duty: PackLoads, rotor: _Rotor, remedy: str = _WIDER) -> Check:
     chosen, ratio = machine.seats[0], machine.design.reducer.ratio
     # The lower one stands in the housing, the upper one turns back with the carrier.
     slip = np.array([ratio, ratio + 1.0])
     # The discs' forces turn with the crank, that on the rotor stands still.
     loads = with_still_force(support_loads(machine, duty), rotor.on_bearings)
     known = chosen.source != "bush"
-    return _life("SUPPORT-LIFE", machine, chosen.bearing if known else None, loads, slip, _WIDER)
+    return _life("SUPPORT-LIFE", machine, chosen.bearing if known else None, loads, slip, remedy)
 
 
-def _support_life_cured(machine: Machine, duty: PackLoads, rotor: _Rotor) -> Check:
+def _support_life_cured(machine: Machine, duty: PackLoads, rotor: _Rotor, remedy: str) -> Check:
     """With the torques of the duty at which both last, where there are any."""
-    line = _support_life(machine, duty, rotor)
+    line = _support_life(machine, duty, rotor, remedy)
     if line.status != "fail" or machine.stiff or len(machine.life.duty) > SEARCHED_CASES:
         return line
 

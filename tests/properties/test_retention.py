@@ -20,7 +20,7 @@ from cqdd_design.solids.part import Part, placed
 from cqdd_design.solids.parts import build_parts
 from cqdd_design.solids.poses import HOUSING, transform
 from cqdd_design.solids.retention import Retained, retention
-from cqdd_design.solids.selection import support_bearing
+from cqdd_design.solids.shaft_bearings import ShaftRoom, support_bearing
 from cqdd_design.solids.walls import least_walls
 from cqdd_design.verdict.retention_lines import retention_lines
 
@@ -242,7 +242,7 @@ def test_a_shoulder_reaches_past_the_largest_chamfer(
 
 @pytest.mark.parametrize("shoulder", np.arange(6e-3, 40e-3, 0.37e-3))
 def test_the_support_bearing_is_one_whose_chamfer_the_shoulder_clears(shoulder: float) -> None:
-    chosen = support_bearing(shoulder, 0.4e-3, 3.0 * shoulder, 3.0 * shoulder).bearing
+    chosen = support_bearing(ShaftRoom(shoulder, 0.4e-3, 3.0 * shoulder, 3.0 * shoulder)).bearing
     height = 0.5 * (shoulder - chosen.bore_diameter)
     # Up to 0.15 of it is its own chamfer.
     assert 0.85 * height >= chosen.largest_chamfer + 0.025e-3 - 1e-12

@@ -26,6 +26,7 @@ _SAME = 1e-6
 """Difference of sizes that counts as rounding, m."""
 _KEYS = {
     "cam bearing": "reducer.cam_bearing.designation",
+    "shaft bearing": "reducer.support_bearing.designation",
     "output bearing": "reducer.carrier_bearing.designation",
 }
 """Parts that a design may name, with its key."""

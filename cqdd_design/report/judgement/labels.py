@@ -31,6 +31,7 @@ GROUPS = {
     "reducer.modification": "Profile modification",
     "reducer.output_pins": "Output pins",
     "reducer.cam_bearing": "Cam bearing",
+    "reducer.support_bearing": "Shaft bearings",
     "reducer.carrier": "Carrier",
     "reducer.carrier_bearing": "Carrier bearing",
     "reducer.ring": "Ring",
