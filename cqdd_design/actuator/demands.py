@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from cqdd_design.actuator.duty_points import duty_points
-from cqdd_design.actuator.operating import Judgement, judge
+from cqdd_design.actuator.operating import Judgement, Need, judge, needed
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.thermal import runaway_current, steady_state
 from cqdd_design.design import Requirements
@@ -68,10 +68,23 @@ def demands(parameters: ActuatorParameters, requirements: Requirements) -> tuple
 
 
 def _step(parameters: ActuatorParameters, name: str, torque: float, speed: float) -> Demand:
-    """A step of the duty, with its signs."""
+    """A step of the duty, with its signs: hot, or cold where that alone is outside.
+
+    Cold magnets ask for more voltage at a speed, hot ones for more current at a torque.
+    """
     size, turning, generates = abs(torque), abs(speed), torque * speed < 0.0
-    judged = judge(parameters, -size if generates else size, turning, lasting=False, hot=True)
+    asked = -size if generates else size
+    hot, cold = (
+        judge(parameters, asked, turning, lasting=False, hot=warm) for warm in (True, False)
+    )
+    judged = cold if hot.inside and not cold.inside else hot
     return Demand(name, size, turning, generates, lasting=False, found=judged)
+
+
+def _hot_need(parameters: ActuatorParameters, torque: float, speed: float) -> Need:
+    """What a point with its signs asks for, winding and magnets at the winding's limit."""
+    size = math.copysign(abs(torque), -1.0 if torque * speed < 0.0 else 1.0)
+    return needed(parameters, size, abs(speed), parameters.thermal.most)
 
 
 @dataclass(frozen=True)
@@ -99,7 +112,7 @@ def duty_heat(parameters: ActuatorParameters, requirements: Requirements) -> Dut
     elif requirements.duty:
         squares = heat = 0.0
         for step in requirements.duty:
-            need = _step(parameters, "", step.torque, step.speed).found.need
+            need = _hot_need(parameters, step.torque, step.speed)
             squares += step.share * need.current**2
             heat += step.share * need.heat
         current = math.sqrt(squares)

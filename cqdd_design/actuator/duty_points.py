@@ -65,6 +65,9 @@ class OutsideRow:
 class DutyPoints:
     """What a duty over time asks of motor and driver, the winding at its limit.
 
+    Rows are outside where they are so with the winding at its limit or at ambient: cold magnets ask
+    for more voltage at a speed, hot ones for more current at a torque.
+
     Attributes
     ----------
     rows, outside, stretches : int
@@ -123,15 +126,16 @@ class DutyPoints:
 
 @lru_cache(maxsize=4)
 def duty_points(parameters: ActuatorParameters, log: DutyLog) -> DutyPoints:
-    """Judge every row of a duty as a steady point, winding and magnets at the winding's limit."""
+    """Judge every row of a duty as a steady point; currents and heat are those of a hot winding."""
     weight = log.weights
     worst = np.empty(log.rows)
     squares = heat = taken = fed_back = 0.0
     for begin in range(0, log.rows, _PIECE):
         rows = slice(begin, begin + _PIECE)
-        found = _asked(parameters, log.torque[rows], log.speed[rows])
+        torque, speed = log.torque[rows], log.speed[rows]
+        found = _asked(parameters, torque, speed)
         here, power = weight[rows], found.voltage * found.current
-        worst[rows] = np.max(_shares(parameters, found), axis=1)
+        worst[rows] = np.max(_worst_shares(parameters, torque, speed), axis=1)
         squares += float(here @ found.current**2)
         heat += float(here @ found.heat)
         taken += float(here @ np.maximum(power, 0.0))
@@ -151,10 +155,22 @@ def duty_points(parameters: ActuatorParameters, log: DutyLog) -> DutyPoints:
     )
 
 
-def _asked(parameters: ActuatorParameters, torque: FloatArray, speed: FloatArray) -> Needs:
+def _asked(
+    parameters: ActuatorParameters, torque: FloatArray, speed: FloatArray, *, hot: bool = True
+) -> Needs:
     """What rows ask; torque counts as positive where the motor drives."""
     sign = np.where(torque * speed < 0.0, -1.0, 1.0)
-    return needs(parameters, sign * np.abs(torque), np.abs(speed), parameters.thermal.most)
+    thermal = parameters.thermal
+    temperature = thermal.most if hot else thermal.ambient
+    return needs(parameters, sign * np.abs(torque), np.abs(speed), temperature)
+
+
+def _worst_shares(
+    parameters: ActuatorParameters, torque: FloatArray, speed: FloatArray
+) -> FloatArray:
+    """The greater of `_shares` hot and cold, (M, 3)."""
+    hot, cold = (_asked(parameters, torque, speed, hot=warm) for warm in (True, False))
+    return np.maximum(_shares(parameters, hot), _shares(parameters, cold))
 
 
 def _shares(parameters: ActuatorParameters, found: Needs) -> FloatArray:
@@ -182,7 +198,7 @@ def _worst_rows(worst: FloatArray, beyond: NDArray[np.bool_]) -> tuple[list[int]
 
 def _named(parameters: ActuatorParameters, log: DutyLog, row: int) -> OutsideRow:
     here = slice(row, row + 1)
-    shares = _shares(parameters, _asked(parameters, log.torque[here], log.speed[here]))[0]
+    shares = _worst_shares(parameters, log.torque[here], log.speed[here])[0]
     names = np.array([DRIVER, VOLTAGE, PEAK])
     exceeded = shares > _SLACK
     binding = names[exceeded] if np.any(exceeded) else names[[int(shares.argmax())]]

@@ -206,13 +206,24 @@ def simulated_torque(parameters: ActuatorParameters, speed: float, current: floa
     return float(np.abs(run.gear_torque).max())
 
 
+def _peak_of_drive(parameters: ActuatorParameters) -> float:
+    motor, ratio = parameters.motor, abs(parameters.gear.ratio)
+    return min(torques_of_drive(motor, parameters.drive, ratio).values())
+
+
+def peak_current(parameters: ActuatorParameters) -> float:
+    """Of the motor for the greatest torque that it and its driver give at rest, A."""
+    constant = parameters.motor.torque_constant * abs(parameters.gear.ratio)
+    return _peak_of_drive(parameters) / constant
+
+
 def shock(machine: Machine, parameters: ActuatorParameters, speed: float) -> Shock:
     """Stop the output of a machine's actuator at a speed (rad/s, above zero)."""
-    gear, motor = parameters.gear, parameters.motor
+    gear = parameters.gear
     inertia = parameters.motor_side_inertia * gear.ratio**2
     energy = 0.5 * inertia * speed**2
-    peak = min(torques_of_drive(motor, parameters.drive, abs(gear.ratio)).values())
-    current = peak / (motor.torque_constant * abs(gear.ratio))
+    peak = _peak_of_drive(parameters)
+    current = peak_current(parameters)
     torques = (
         speed * math.sqrt(gear.stiffness * inertia),
         stop_torque(gear, energy),

@@ -307,6 +307,26 @@ class Requirements(FrozenModel):
         cases = self.load_cases
         return max((abs(one.torque) for one in cases), default=self.continuous_torque)
 
+    @property
+    def fastest_speed(self) -> float:
+        """Greatest speed of the input: that which is stated, or a duty's, rad/s."""
+        duty = max((abs(one.speed) for one in self.load_cases), default=0.0)
+        return max(self.input_speed, self.ratio * duty)
+
+    @property
+    def equal_torque(self) -> float:
+        """The torque that stands for a duty, or without one the continuous torque, N m.
+
+        Of torques at their turns the mean by cubes, by which ball bearings last; of a duty that
+        only stands, the greatest.
+        """
+        cases = self.load_cases
+        turns = sum(one.share * abs(one.speed) for one in cases)
+        if not turns:
+            return self.lasting_torque
+        cubes = sum(one.share * abs(one.speed) * abs(one.torque) ** 3 for one in cases)
+        return float((cubes / turns) ** (1.0 / 3.0)) or self.lasting_torque
+
     def with_duty_log(self, log: DutyLog | None) -> Requirements:
         """The same requirements with what their duty's file says."""
         changed = self.model_copy()

@@ -69,12 +69,13 @@ def _analysed(
     # Fewer columns than pins: several of these periods until a place has met all of its forces.
     periods = round(model.period / mesh_period(model.lobe_count, model.pin_count))
     states = nominal_states(model, perfect_angles(model, periods * _ANGLES))
-    rubbed = ContactFriction.of(model, friction)
 
-    def both(size: float) -> list[ContactSweep]:
+    def both(size: float, speed: float | None = None) -> list[ContactSweep]:
+        rubbed = ContactFriction.of(model, friction, speed)
         return [contact_sweep(model, t, states=states, friction=rubbed) for t in (size, -size)]
 
-    at_peak = both(peak)
+    # The peak torque of the requirements is reached at rest, where no film lowers friction.
+    at_peak = both(peak, 0.0 if torque is None else None)
     senses = [case.torque for case in asked.load_cases]
     strengths = [
         find_material(name).ultimate_strength or math.inf
@@ -84,7 +85,7 @@ def _analysed(
         machine.bodies or elastic_bodies(design),
         states,
         at_peak,
-        at_peak if steady == peak else both(steady),
+        at_peak if torque is not None else both(steady),
         reverses=min(senses, default=0.0) < 0.0 < max(senses, default=0.0),
         ultimate=(strengths[0], strengths[1]),
     )

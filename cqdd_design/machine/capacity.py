@@ -20,12 +20,18 @@ _TOLERANCE = 1e-6
 class LoadedContacts:
     """Greatest forces and pressures of perfect parts over their period, in both senses.
 
-    With friction at teeth and pins while the motor drives, which loads them most.
+    With friction at teeth and pins while the motor drives, which loads them most; at rest, where
+    peak torques are reached and no film lowers it, unless a speed is given.
+
+    Parameters
+    ----------
+    speed : float, optional
+        Of the crank, rad/s.
     """
 
-    def __init__(self, model: ContactModel) -> None:
+    def __init__(self, model: ContactModel, speed: float = 0.0) -> None:
         self._model = model
-        self._friction = ContactFriction.of(model, "drive")
+        self._friction = ContactFriction.of(model, "drive", speed)
         self._states: dict[int, NominalStates] = {}
         self._found: dict[tuple[float, int], dict[str, float]] = {}
 

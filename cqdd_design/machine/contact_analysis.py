@@ -142,7 +142,8 @@ def analyse_contact(
     asked = design.requirements
     peak = asked.peak_torque if torque is None else torque
     steady = asked.continuous_torque if torque is None else torque
-    rubbed = ContactFriction.of(model, friction)
+    # The peak torque of the requirements is reached at rest, where no film lowers friction.
+    rubbed = ContactFriction.of(model, friction, 0.0 if torque is None else None)
     sweep = contact_sweep(model, peak, states=states, friction=rubbed)
     losses = machine.losses if usual else loss_model(model, machine.friction, asked.peak_torque)
     back = contact_sweep(model, -peak, states=states, friction=rubbed)

@@ -20,8 +20,8 @@ class LoadedDowels:
     ----------
     place, size : str
         Where they are, and which, in words.
-    torque : float
-        N m.
+    torque, across : float
+        N m, and a force across the axis from outside, N.
     stress : DowelStress
     seat : Allowable
         Pressure that their seats bear.
@@ -32,6 +32,7 @@ class LoadedDowels:
     place: str
     size: str
     torque: float
+    across: float
     stress: DowelStress
     seat: Allowable
     metal: str
@@ -50,7 +51,8 @@ def loaded_dowels(machine: Machine) -> tuple[LoadedDowels, ...]:
     layout, design = machine.layout, machine.design
     ring, face = layout.dowels, layout.carrier.flange_dowels
     metal, found = find_material(design.housing.material), []
-    peak = design.requirements.peak_torque
+    asked = design.requirements
+    peak, across = asked.peak_torque, asked.external_radial or 0.0
     if ring.radius:
         count, size, torque = len(ring.angles), 2.0 * ring.radius, ring_torque(machine)
         found.append(
@@ -58,6 +60,7 @@ def loaded_dowels(machine: Machine) -> tuple[LoadedDowels, ...]:
                 "ring in its seat",
                 f"{count} of {1e3 * size:g} x {1e3 * ring.length:g} mm",
                 torque,
+                0.0,
                 along_a_seam(torque, count, layout.pack.ring_radius, size, ring.bearing_length),
                 dowel_limit_seat(metal, find_material(design.reducer.ring_material)),
                 "housing.material",
@@ -70,7 +73,11 @@ def loaded_dowels(machine: Machine) -> tuple[LoadedDowels, ...]:
                 "output's face",
                 f"{face.count} of {1e3 * face.diameter:g} mm, {1e3 * face.depth:.3g} mm deep",
                 peak,
-                across_a_joint(peak, face.count, circle, face.diameter, face.depth),
+                across,
+                # A force across adds to that of the torque where both have one direction.
+                across_a_joint(
+                    peak + across * circle, face.count, circle, face.diameter, face.depth
+                ),
                 dowel_limit_seat(find_material(design.carrier_material)),
                 "carrier.material",
             )

@@ -273,7 +273,7 @@ class Machine:
             reducer.disc_thickness,
             reducer.disc_spacing,
             reducer.disc_count,
-            self.design.requirements.input_speed,
+            self.design.requirements.fastest_speed,
             weights,
             weights_missing=missing,
         )
@@ -332,7 +332,9 @@ class Machine:
         return self.pack_at(self.design.requirements.peak_torque)
 
     def pack_at(self, torque: float) -> PackLoads:
-        """Forces of the discs at an output torque, N m, in both senses, driving with friction.
+        """Forces of the discs at an output torque, N m, in both senses, driving from rest.
+
+        Friction is then that of a gearbox without films, which is the most.
 
         ContactError where it has no equilibrium.
         """
@@ -341,7 +343,8 @@ class Machine:
         from cqdd_design.gearbox.pack_loads import PackLoads
 
         model = self.contact
-        rubbed, angles = ContactFriction.of(model, "drive"), perfect_angles(model, _PEAK_ANGLES)
+        rubbed = ContactFriction.of(model, "drive", 0.0)
+        angles = perfect_angles(model, _PEAK_ANGLES)
         return PackLoads.of(
             [contact_sweep(model, one, angles, friction=rubbed) for one in (torque, -torque)]
         )

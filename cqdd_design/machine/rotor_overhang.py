@@ -120,7 +120,7 @@ def rotor_overhang(machine: Machine) -> RotorOverhang:
 
     mass = sum(part.mass for part in machine.parts if part.name in (ROTOR, BELL, HUB))
     off = BUILT_OFF * gap
-    unbalance = mass * design.requirements.input_speed**2 * off
+    unbalance = mass * design.requirements.fastest_speed**2 * off
     rate = pull_rate(2.0 * radius, motor.stack_top - motor.stack_bottom, gap)
     return RotorOverhang(
         gap=gap,

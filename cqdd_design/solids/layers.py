@@ -108,7 +108,17 @@ class Stack:
 def _reach(contour: Contour) -> float:
     if isinstance(contour, Circle):
         return float(np.hypot(*contour.centre)) + contour.radius
-    return float(np.hypot(*contour.points.T).max())
+    farthest = float(np.hypot(*contour.points.T).max())
+    if not isinstance(contour, ArcContour):
+        return farthest
+    # An arc may bulge beyond its ends: where the ray from the axis through its centre leaves it.
+    arcs = contour.arcs()
+    centres = np.hypot(*np.asarray(arcs.centres).T)
+    bulging = np.isfinite(arcs.radii) & (centres > 0.0)
+    there, radii = np.asarray(arcs.centres)[bulging], np.asarray(arcs.radii)[bulging]
+    tips = there * (1.0 + radii / centres[bulging])[:, None]
+    on = contour.distances(tips) < 1e-9 if len(tips) else np.zeros(0, dtype=bool)
+    return max(farthest, float(np.hypot(*tips[on].T).max(initial=0.0)))
 
 
 def prism_properties(moments: Moments, bottom: float, top: float, density: float) -> MassProperties:

@@ -8,7 +8,7 @@ from dataclasses import replace
 from functools import partial
 
 from cqdd_design.actuator.operating import judge
-from cqdd_design.actuator.shock import simulated_torque
+from cqdd_design.actuator.shock import peak_current, simulated_torque
 from cqdd_design.errors import ContactError, GeometryError
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.gearbox.precision.precision import precision
@@ -62,7 +62,11 @@ def _speed_at_peak(evidence: Evidence) -> Iterator[Check]:
     found = judge(actuator, torque, asked.speed_at_peak, lasting=False, hot=False)
     binding = ", ".join(found.binding) or "nothing"
     motor = evidence.machine.motor
-    told = f"{found.most:.4g} N*m at {asked.speed_at_peak:.4g} rad/s of the output; "
+    hot = judge(actuator, torque, asked.speed_at_peak, lasting=False, hot=True)
+    told = (
+        f"{found.most:.4g} N*m at {asked.speed_at_peak:.4g} rad/s of the output, motor cold; "
+        f"{hot.most:.4g} N*m with magnets and winding at {actuator.thermal.most:g} degC; "
+    )
     if motor.peak_torque is None and found.most >= torque:
         why = f"{told}the motor's own peak torque is not known"
         yield build_check(name, None, torque, why, "give it in the motor's data")
@@ -88,7 +92,11 @@ def _shock(evidence: Evidence, others: Sequence[Check] = ()) -> Iterator[Check]:
         yield build_check("SHOCK-STOP", None, limit, why, "see what is not known")
         return
     torque = simulated_torque(actuator, speed)
-    told = f"{torque:.4g} N*m from {speed:.4g} rad/s; first to give way: {gives_way}"
+    driven = simulated_torque(actuator, speed, peak_current(actuator))
+    told = (
+        f"{torque:.4g} N*m from {speed:.4g} rad/s with the motor off, {driven:.4g} N*m where it "
+        f"drives on with its peak current; first to give way: {gives_way}"
+    )
     more = "take a gearbox that carries more"
     line = build_check("SHOCK-STOP", torque, limit, told, more)
     if line.status == "fail" and not machine.stiff:

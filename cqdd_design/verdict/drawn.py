@@ -18,6 +18,7 @@ from cqdd_design.gearbox.tolerance.evaluate import LOADS, PER_TOOTH, RANKED
 from cqdd_design.gearbox.tolerance.remembered import work_remembered
 from cqdd_design.gearbox.tolerance.run import ToleranceResult, run_ensemble
 from cqdd_design.machine import Machine
+from cqdd_design.machine.capacity import LoadedContacts
 from cqdd_design.results import Check
 
 _ARCMIN = math.degrees(1.0) * 60.0
@@ -36,7 +37,7 @@ class Drawn(NamedTuple):
 def drawn_gearboxes(
     machine: Machine, samples: int, *, sensitivity: bool, rigid: bool = False
 ) -> Drawn:
-    """Toleranced gearboxes at the continuous and at the peak torque.
+    """Toleranced gearboxes at the continuous torque, or what stands for the duty, and at the peak.
 
     Parameters
     ----------
@@ -57,7 +58,9 @@ def drawn_gearboxes(
     peak = machine.design.requirements.peak_torque
     # Greatest loads alone need the fewest angles.
     fewest = PER_TOOTH[1] * ratio * (ratio + 1)
-    at_peak = make_ensemble(machine.design, angles=fewest, torque=peak, outputs=LOADS, rigid=rigid)
+    at_peak = make_ensemble(
+        machine.design, angles=fewest, torque=peak, outputs=LOADS, rigid=rigid, at_rest=True
+    )
     lasting = make_ensemble(machine.design, rigid=rigid)
     # Side by side: the tables of one are made while the gearboxes of the other are worked.
     with ThreadPoolExecutor(1) as beside:
@@ -96,7 +99,9 @@ class Allowed:
         by_id = {line.id: line for line in lines}
         if not all(check in by_id and by_id[check].known for check in (*_RING, *_CAM)):
             return None
-        perfect = machine.loaded_contacts.greatest(machine.design.requirements.continuous_torque)
+        model = machine.contact
+        running = LoadedContacts(model, model.film_speed)
+        perfect = running.greatest(machine.design.requirements.equal_torque)
         cam = machine.analysis.cam_bearing
         pressure = by_id["CONTACT-RING-CONTINUOUS"].margin
         load = by_id["BEARING-LIFE"].margin ** (1.0 / cam.exponent)

@@ -165,7 +165,7 @@ def _dowel(name: str, every: list[tuple[LoadedDowels, float, Allowable]], cure: 
     """
     told = "; ".join(
         f"{one.place}: {one.size}, {value / _MEGA:.3g} of {limit.value / _MEGA:.3g} MPa under "
-        f"{one.torque:.4g} N*m"
+        f"{one.torque:.4g} N*m" + (f" and {one.across:.4g} N across" if one.across else "")
         for one, value, limit in every
     )
     worst, value, limit = min(every, key=lambda row: row[2].value / row[1])

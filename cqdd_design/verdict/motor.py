@@ -44,6 +44,8 @@ _RAISED = {
 }
 """What to raise where it binds."""
 _LOWER_CONTINUOUS = "lower requirements.continuous_torque to about"
+_SLACK = 1.0 + 1e-9
+"""Of a torque, for rounding."""
 _MOST_RAISED = 10.0
 """Above so many times what there is it is no cure."""
 _ZOOMS, _SPEEDS = 3, 33
@@ -103,8 +105,8 @@ def motor_lines(
         *_bore(machine),
     ]
     if asked.duty_log is not None:
-        return (*lines, _logged(duty_points(actuator, asked.duty_log)))
-    return (*lines, _duty(duty)) if duty else tuple(lines)
+        return (*lines, _logged(duty_points(actuator, asked.duty_log), asked))
+    return (*lines, _duty(duty, asked)) if duty else tuple(lines)
 
 
 _LIMITS = ("MOTOR-PEAK", "MOTOR-CONTINUOUS", "MOTOR-SPEED")
@@ -134,7 +136,11 @@ def _data(motor: Motor) -> tuple[Check, ...]:
 def _peak(demand: Demand, actuator: ActuatorParameters, motor: Motor, asked: Requirements) -> Check:
     most = demand.found.most
     binding = ", ".join(demand.found.binding) or "nothing"
-    told = f"{most:.4g} N*m at rest, {demand.found.need.current:.3g} A for the peak torque; "
+    hot = judge(actuator, asked.peak_torque, 0.0, lasting=False, hot=True)
+    told = (
+        f"{most:.4g} N*m at rest, {demand.found.need.current:.3g} A for the peak torque, motor "
+        f"cold; {hot.most:.4g} N*m with magnets and winding at {actuator.thermal.most:g} degC; "
+    )
     if motor.peak_torque is None and most >= asked.peak_torque:
         why = f"{told}the motor's own peak torque is not known"
         return build_check("MOTOR-PEAK", None, asked.peak_torque, why, GIVE, model=MODEL)
@@ -237,11 +243,14 @@ def _slower(actuator: ActuatorParameters, machine: Machine, *, parts: bool) -> s
 def _speed(actuator: ActuatorParameters, asked: Requirements) -> Check:
     # Where the continuous torque has a speed of its own, it is judged there.
     torque = asked.continuous_torque if asked.continuous_speed is None else 0.0
-    fastest, drive = _fastest(actuator, torque), actuator.drive
+    ways = {hot: _fastest(actuator, torque, hot=hot) for hot in (True, False)}
+    # Cold magnets ask for more voltage, hot ones for more current.
+    hot = ways[True] <= ways[False]
+    fastest, drive = ways[hot], actuator.drive
     # What is not even driven at a standstill has to get there first.
     speeds = (asked.input_speed,) if fastest > 0.0 else (0.0, asked.input_speed)
     at = [speed / abs(actuator.gear.ratio) for speed in speeds]
-    points = [judge(actuator, torque, speed, lasting=False, hot=True) for speed in at]
+    points = [judge(actuator, torque, speed, lasting=False, hot=hot) for speed in at]
     binding = list(dict.fromkeys(name for point in points for name in point.binding))
     raised = _raised(points, actuator).removesuffix(", or ")
     cures = [raised] if raised else []
@@ -254,7 +263,8 @@ def _speed(actuator: ActuatorParameters, asked: Requirements) -> Check:
         fastest * _RPM,
         asked.input_speed * _RPM,
         f"{torque:g} N*m up to {fastest * _RPM:.0f} rpm on {drive.supply_voltage:g} V and "
-        f"{drive.current_limit:g} A, winding hot; binding: {', '.join(binding) or 'nothing'}",
+        f"{drive.current_limit:g} A, motor {'hot' if hot else 'cold'}; binding: "
+        f"{', '.join(binding) or 'nothing'}",
         ", or ".join(cures),
         model=MODEL,
     )
@@ -274,19 +284,20 @@ def _raised(points: list[Judgement], actuator: ActuatorParameters) -> str:
     return f"raise {' and '.join(words)}, or "
 
 
-def _fastest(actuator: ActuatorParameters, torque: float) -> float:
+def _fastest(actuator: ActuatorParameters, torque: float, *, hot: bool) -> float:
     """Fastest motor speed at which a torque at the output (N m) is driven, rad/s; 0 if at none."""
-    n, hot = abs(actuator.gear.ratio), actuator.thermal.most
+    n, thermal = abs(actuator.gear.ratio), actuator.thermal
+    temperature = thermal.most if hot else thermal.ambient
     strongest = actuator.motor.peak_torque
 
     def driven(speed: float) -> bool:
-        most = float(envelope_torque(actuator, speed / n, hot)[0])
+        most = float(envelope_torque(actuator, speed / n, temperature)[0])
         if math.isfinite(strongest):
             most = min(most, float(output_torque(actuator, strongest, speed / n)))
         return most >= torque
 
-    # Warm magnets turn faster: the speed at which their EMF is the whole supply.
-    constant = float(torque_constant_at(actuator.motor, hot))
+    # The speed at which the EMF is the whole supply.
+    constant = float(torque_constant_at(actuator.motor, temperature))
     low, high = 0.0, actuator.drive.supply_voltage / constant
     if not driven(0.0):
         return 0.0
@@ -323,29 +334,43 @@ def _behind(machine: Machine, ring: float) -> tuple[Check, ...]:
     return (build_check("MOTOR-BORE", 1e3 * ring, None, why, GIVE),)
 
 
-def _logged(found: DutyPoints) -> Check:
+def _logged(found: DutyPoints, asked: Requirements) -> Check:
     """Rows of a duty over time."""
-    return _envelope(found.outside, found.told)
+    log = asked.duty_log
+    assert log is not None
+    above = np.abs(log.torque) > _SLACK * asked.peak_torque
+    told = found.told
+    if above.any():
+        row = int(np.abs(log.torque).argmax())
+        told = (
+            f"{int(above.sum())} rows ask for more than the peak torque, line {log.line(row)} for "
+            f"most: {log.torque[row]:.4g} N*m; {told}"
+        )
+    return _envelope(max(found.outside, int(above.sum())), told, above=bool(above.any()))
 
 
-def _duty(steps: list[Demand]) -> Check:
-    outside = [step for step in steps if not step.found.inside]
+def _duty(steps: list[Demand], asked: Requirements) -> Check:
+    above = {step.name for step in steps if step.torque > _SLACK * asked.peak_torque}
+    outside = [step for step in steps if not step.found.inside or step.name in above]
     told = "; ".join(
         f"{step.name}: {step.torque:g} N*m at {step.speed:g} rad/s, {' and '.join(b)}"
         for step in outside[:3]
-        for b in [step.found.binding]
+        for b in [(*step.found.binding, *(["above the peak torque"] if step.name in above else []))]
     )
     more = f" and {len(outside) - 3} more" if len(outside) > 3 else ""
-    return _envelope(len(outside), f"{told}{more}" or f"all {len(steps)} steps are inside")
+    told = f"{told}{more}" or f"all {len(steps)} steps are inside"
+    return _envelope(len(outside), told, above=bool(above))
 
 
-def _envelope(outside: int, told: str) -> Check:
+def _envelope(outside: int, told: str, *, above: bool) -> Check:
+    """The line; `above` is whether the duty asks for more than parts are judged for at the peak."""
+    peak = f"raise {PEAK_KEY}, for which parts are judged, " if above else ""
     return build_check(
         "DUTY-ENVELOPE",
         float(outside),
         0.0,
         told,
-        "lower torque or speed of these steps, raise motor.voltage or motor.current_limit, or "
-        "take a stronger motor",
+        f"{peak}lower torque or speed of these steps, raise motor.voltage or motor.current_limit, "
+        "or take a stronger motor",
         model=MODEL,
     )

@@ -1,8 +1,9 @@
 """Holes for heat-set inserts where a screw would be in plastic.
 
 A plastic thread creeps and strips: what is drilled for a thread becomes the hole of the longest
-insert that its depth takes and whose hole leaves a wall. Where none goes in, the hole stays as it
-is drawn, and a sentence says so.
+insert that its depth takes and whose hole leaves a wall. A fitted bore over a thread, as of a
+shouldered screw's neck, stays what it is: the insert goes in from the other side, and where that is
+closed none does. Where none goes in, the hole stays as it is drawn, and a sentence says so.
 """
 
 from __future__ import annotations
@@ -15,13 +16,15 @@ import numpy as np
 
 from cqdd_design.catalog.printing import Insert, insert_for
 from cqdd_design.geometry.contours import Circle, Contour, PlanarPart
-from cqdd_design.solids.features.holes import TappedHole
+from cqdd_design.solids.features.holes import FittedHole, TappedHole
 from cqdd_design.solids.layers import Layer, Stack
 
 if TYPE_CHECKING:
     from cqdd_design.solids.part import Part
 
 _SAME = 1e-7
+_SEAT_LIMITS = 0.05e-3
+"""By which a fitted bore may be drawn off its nominal radius at most, m."""
 _MM = 1e3
 
 
@@ -75,6 +78,12 @@ def with_inserts(part: Part, least_wall: float) -> tuple[Part, tuple[ThreadedHol
         That the part's material can have, m.
     """
     tapped = {one.thread: one for one in part.stated if isinstance(one, TappedHole)}
+    fitted = {
+        _rounded(x, y): 0.5 * one.diameter
+        for one in part.stated
+        if isinstance(one, FittedHole)
+        for x, y in one.circle.centres
+    }
     found: list[ThreadedHoles] = []
     bores: dict[tuple[float, float], float] = {}
     for thread, drilled in sorted(tapped.items()):
@@ -82,6 +91,8 @@ def with_inserts(part: Part, least_wall: float) -> tuple[Part, tuple[ThreadedHol
         depths, rooms = _depths(part.shape, drill), _rooms(part.shape, drill)
         fitting = {
             place: _fitting(thread, depth, rooms[place] - least_wall)
+            if place not in fitted or drilled.through
+            else None
             for place, depth in depths.items()
         }
         kinds = {(depths[place], insert) for place, insert in fitting.items()}
@@ -101,6 +112,9 @@ def with_inserts(part: Part, least_wall: float) -> tuple[Part, tuple[ThreadedHol
         # A counterbore over the thread too, through which the insert has to go.
         radius = bores.get(_place(hole)) if isinstance(hole, Circle) else None
         if radius is None or not isinstance(hole, Circle) or hole.radius >= radius:
+            return hole
+        seat = fitted.get(_place(hole))
+        if seat is not None and abs(hole.radius - seat) < _SEAT_LIMITS:
             return hole
         return Circle(hole.centre, radius)
 
@@ -126,7 +140,11 @@ def _is_drilled(hole: Contour, drill: float) -> TypeGuard[Circle]:
 
 
 def _place(hole: Circle) -> tuple[float, float]:
-    return round(float(hole.centre[0]), 7), round(float(hole.centre[1]), 7)
+    return _rounded(float(hole.centre[0]), float(hole.centre[1]))
+
+
+def _rounded(x: float, y: float) -> tuple[float, float]:
+    return round(float(x), 7), round(float(y), 7)
 
 
 def _depths(shape: Stack, drill: float) -> dict[tuple[float, float], float]:

@@ -191,6 +191,8 @@ class EndPlan:
                 rows.append((Words(f"{how}from the far side"),))
             elif any(isinstance(one, Counterbore) for one in hidden):
                 rows.append((Words("counterbore from the far side"),))
+            elif any(isinstance(one, FittedHole) for one in hidden):
+                rows.append((Words("fitted bore from the far side"),))
             target = centre + 0.5 * self.factor * size * up
             blocks.append(Block(target, tuple(rows)))
         return blocks

@@ -50,6 +50,8 @@ class Ensemble:
     temperatures : PartTemperatures
     outputs : tuple of str
         What is found of every gearbox: `OUTPUTS`, or `LOADS` or `RANKED` alone.
+    at_rest : bool
+        Whether friction is that of a gearbox that stands, without films.
     """
 
     design: Design
@@ -59,6 +61,7 @@ class Ensemble:
     seed: int
     temperatures: PartTemperatures = AS_DRAWN
     outputs: tuple[str, ...] = OUTPUTS
+    at_rest: bool = False
 
 
 @dataclass(frozen=True)
@@ -92,7 +95,8 @@ def _of_all(ensemble: Ensemble) -> EnsembleTables:
     rigid = _rigid(replace(ensemble, bodies=None))
     if ensemble.bodies is None:
         return rigid
-    return rigid.yielding(_yielding(ensemble.bodies, ensemble.torque, ensemble.angles))
+    yielding = _yielding(ensemble.bodies, ensemble.torque, ensemble.angles, ensemble.at_rest)
+    return rigid.yielding(yielding)
 
 
 @functools.lru_cache(maxsize=2)
@@ -100,7 +104,13 @@ def _rigid(ensemble: Ensemble) -> EnsembleTables:
     """Of rigid bodies; those that yield differ from it by that alone."""
     # What the kernels know of pins off their holes are errors of position, see `work_block`.
     model = replace(_warm(ensemble), pin_reach=0.0)
-    return ensemble_tables(model, ensemble.torque, ensemble.angles, outputs=ensemble.outputs)
+    return ensemble_tables(
+        model,
+        ensemble.torque,
+        ensemble.angles,
+        outputs=ensemble.outputs,
+        at_rest=ensemble.at_rest,
+    )
 
 
 @functools.lru_cache(maxsize=2)
@@ -110,21 +120,21 @@ def _warm(ensemble: Ensemble) -> ContactModel:
     return heated(drawn, ensemble.design, ensemble.temperatures)
 
 
-def _yielding(design: Design, torque: float, angles: int) -> BodyCompliance:
+def _yielding(design: Design, torque: float, angles: int, at_rest: bool) -> BodyCompliance:
     """Other clearances of the same design share it; threads that ask at once wait for one."""
     with _one_at_a_time:
-        return _last_yielding(design, torque, angles)
+        return _last_yielding(design, torque, angles, at_rest)
 
 
 _one_at_a_time = threading.Lock()
 
 
 @functools.lru_cache(maxsize=2)
-def _last_yielding(design: Design, torque: float, angles: int) -> BodyCompliance:
+def _last_yielding(design: Design, torque: float, angles: int, at_rest: bool) -> BodyCompliance:
     model = ContactModel.from_design(design)
     bodies = bodies_or_none(design)
     assert bodies is not None, "`make_ensemble` leaves out bodies that cannot be meshed"
-    return body_compliance(bodies, model, torque, angles)
+    return body_compliance(bodies, model, torque, angles, at_rest=at_rest)
 
 
 def work_block(ensemble: Ensemble, block: Block) -> FloatArray:
@@ -161,8 +171,11 @@ def make_ensemble(
     temperatures: PartTemperatures = AS_DRAWN,
     outputs: tuple[str, ...] = OUTPUTS,
     rigid: bool = False,
+    at_rest: bool = False,
 ) -> Ensemble:
     """Complete an ensemble: continuous torque, and about 1000 angles over the turn.
+
+    Under a duty the torque that stands for it, :attr:`.Requirements.equal_torque`.
 
     Discs and ring yield where they can be meshed, and are rigid where they cannot, which the result
     says.
@@ -177,6 +190,8 @@ def make_ensemble(
         `OUTPUTS`, or `LOADS` where nothing else is asked, which takes half of the time.
     rigid : bool
         Whether discs and ring do not yield although they could.
+    at_rest : bool
+        Whether friction is that of a gearbox that stands, without films.
 
     Raises
     ------
@@ -193,10 +208,10 @@ def make_ensemble(
             f"{wanted} angles on {contacts} contacts are too many for memory; take at most "
             f"--angles {_MOST_CONTACTS // contacts}."
         )
-    load = design.requirements.continuous_torque if torque is None else torque
+    load = design.requirements.equal_torque if torque is None else torque
     yielding: Design | None = bodies or design
     pairs = wanted * contacts**2 / reducer.disc_count
     if rigid or pairs > _MOST_PAIRS or bodies_or_none(bodies or design) is None:
         yielding = None
     growth_of(design, temperatures)
-    return Ensemble(design, yielding, load, wanted, seed, temperatures, outputs)
+    return Ensemble(design, yielding, load, wanted, seed, temperatures, outputs, at_rest)

@@ -137,12 +137,17 @@ class BodyCompliance(NamedTuple):
 
 
 def body_compliance(
-    bodies: ElasticBodies, model: ContactModel, torque: float, angles: int | None = None
+    bodies: ElasticBodies,
+    model: ContactModel,
+    torque: float,
+    angles: int | None = None,
+    *,
+    at_rest: bool = False,
 ) -> BodyCompliance:
     """What discs and ring yield over the output turn; arguments as :func:`ensemble_tables`."""
     wanted = turn_angles(model.lobe_count) if angles is None else angles
     states = nominal_states(model, output_turn_angles(model, wanted))
-    share = rubbing(model, states, _driving(model, torque), torque).share
+    share = rubbing(model, states, _driving(model, torque, at_rest=at_rest), torque).share
     cam_force = rigid_cam_force(model, states, torque)
     return BodyCompliance(
         compliance(bodies, model, states, cam_force, share),
@@ -150,12 +155,12 @@ def body_compliance(
     )
 
 
-def _driving(model: ContactModel, torque: float) -> ContactFriction:
+def _driving(model: ContactModel, torque: float, *, at_rest: bool = False) -> ContactFriction:
     """Friction of a motor that drives; by films, the mean of the perfect gearbox at every contact.
 
     Forces of toleranced parts differ from its forces, and films hardly know the force.
     """
-    friction = ContactFriction.of(model, "drive")
+    friction = ContactFriction.of(model, "drive", 0.0 if at_rest else None)
     assert friction is not None
     if not friction.film_speed:
         return friction
@@ -171,6 +176,7 @@ def ensemble_tables(
     bodies: BodyCompliance | None = None,
     *,
     outputs: tuple[str, ...] = OUTPUTS,
+    at_rest: bool = False,
 ) -> EnsembleTables:
     """Prepare an ensemble.
 
@@ -185,6 +191,8 @@ def ensemble_tables(
         Of the same angles, from :func:`body_compliance`; default rigid.
     outputs : tuple of str
         `OUTPUTS`, or `LOADS`, which ask for nothing of a gearbox without load.
+    at_rest : bool
+        Whether friction is that of a gearbox that stands, without films.
     """
     wanted = turn_angles(model.lobe_count) if angles is None else angles
     states = nominal_states(model, output_turn_angles(model, wanted))
@@ -193,12 +201,12 @@ def ensemble_tables(
     perfect = contact_sweep(held, torque, states=states).state_vectors
     free = np.zeros((2, *perfect.shape)) if outputs == LOADS else free_poses(model, states)
     start = Start(marked, perfect, free, torque)
-    rigid = EnsembleTables(model, states, start, _shared(model, states, torque))
+    rigid = EnsembleTables(model, states, start, _shared(model, states, torque, at_rest=at_rest))
     return rigid if bodies is None else rigid.yielding(bodies)
 
 
-def _shared(model: ContactModel, states: NominalStates, torque: float) -> Shared:
-    friction = _driving(model, torque)
+def _shared(model: ContactModel, states: NominalStates, torque: float, *, at_rest: bool) -> Shared:
+    friction = _driving(model, torque, at_rest=at_rest)
     teeth = states.ring.equivalent_radius
     rubbed = rubbing(model, states, friction, torque)
     held = model_compliance(model)

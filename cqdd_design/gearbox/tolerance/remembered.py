@@ -37,6 +37,7 @@ def _block(ensemble: Ensemble, block: Block) -> FloatArray:
             "seed": ensemble.seed,
             "temperatures": vars(ensemble.temperatures),
             "outputs": ensemble.outputs,
+            "at_rest": ensemble.at_rest,
             "gearboxes": [block.first, block.count, *block.exchanged],
         },
         sort_keys=True,

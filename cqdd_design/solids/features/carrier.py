@@ -31,6 +31,9 @@ OUTPUT_BOLTS = 6
 """In the output's face."""
 OUTPUT_REGISTER = "centring bore of the output"
 """In the plate, open to the output's face: for a spigot of what is driven."""
+_SPARE_TURNS = 2.0
+"""Of a blind thread beyond its screw's end: a 25 mm screw may be 0.42 mm longer (ISO 4762), and the
+part under its head and the depth of the head's counterbore have limits too."""
 _NUT_TURNS = 4.0
 """Least turns of the nut's thread in its height."""
 _FLANGE_POSITION = 20e-6
@@ -183,7 +186,8 @@ def _plate_columns(carrier: CarrierLayout) -> list[Feature]:
         tapped(
             "threads of the columns' screws", thread, metric(thread), circle,
             mouth=carrier.plate_bottom, facing="down",
-            depth=columns.thread_top - carrier.plate_bottom,
+            # The screw may be longer than its size says, and what it holds thinner.
+            depth=columns.thread_top - carrier.plate_bottom + _SPARE_TURNS * thread.pitch,
             room=carrier.plate_top - carrier.plate_bottom,
         ),
         Joint("columns", "screwed", "threads of the columns' screws", "column screw", "its thread"),
