@@ -47,6 +47,9 @@ _LESS = 0.9
 """Share of both torques that is tried next where a gearbox has no equilibrium."""
 _SPARE = 1.02
 """Reserve over what 95 % of the gearboxes need, so that the next design's are not just short."""
+_BESIDE = 0.98
+"""Of the reserve that a sound gearbox keeps, what one on the next place of the grid has to show: by
+clearance that was given since, the very gearbox may have to move there."""
 _WIDEST = 0.995
 """Share of the largest ring beyond which no wider one is asked for."""
 _ALIKE = 1.25
@@ -354,7 +357,8 @@ def read_spread(
     if len(numbers) >= share * count:
         if machine.design.reducer.cam_bearing.designation not in hunt.extra_of:
             # What they need is known now, where only what is usual was.
-            _ask_extra(hunt, machine, _over(used(allowed, drawn), share))
+            enough = _over(used(allowed, drawn), share)
+            _ask_extra(hunt, machine, {check: _BESIDE * one for check, one in enough.items()})
         return None
     # No clearance makes a gearbox tighter or stiffer, but a stronger one is stiffer.
     most = (1.0 - share) * count
