@@ -87,7 +87,7 @@ DESIGNS = (
         "three-discs-9",
         "Three discs",
         "An odd ratio with three discs, as the paper's rule has it; more discs share the load.",
-        '--ratio 9 --discs 3 --peak-torque "30 N*m" --continuous-torque "5 N*m" '
+        '--ratio 9 --discs 3 --peak-torque "28 N*m" --continuous-torque "5 N*m" '
         '--continuous-speed "300 rpm"',
     ),
     Shown(

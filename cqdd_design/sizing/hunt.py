@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -46,6 +47,9 @@ _STURDIEST = 3.0
 """Reserve at the peak beyond which no more is tried."""
 _MOST_RISEN = 2
 """How often a torque is raised that was lowered before: it could go up and down for ever."""
+_A_LITTLE, _MOST_RELENTED = 1.02, 3
+"""Over the reserve that a design had whose part errors were too much for it, what is asked of
+others where none has what it would have needed; and how often."""
 _SOLVED = 15
 """Designs that are kept with their equilibria, but for the last."""
 
@@ -90,6 +94,10 @@ class Hunt:
         Reserve for part errors while no toleranced gearboxes have been looked at, by check.
     extra_of : dict of str to dict
         Reserve for part errors of designs with one cam bearing, by its designation and by check.
+    had : tuple
+        Cam bearing and reserves, by check, of the last design whose part errors asked for more.
+    relented : int
+        How often less was asked for because of it.
     trusting : bool
         Whether designs with cam bearings that have not been looked at need much less, and nothing
         where none has been.
@@ -182,6 +190,8 @@ class Hunt:
     goal: Goal
     usual: Mapping[str, float] = field(default_factory=lambda: _USUAL)
     extra_of: dict[str, dict[str, float]] = field(default_factory=dict)
+    had: tuple[str, dict[str, float]] = ("", {})
+    relented: int = 0
     trusting: bool = False
     any_will_do: bool = False
     best_alone: bool = False
@@ -301,12 +311,31 @@ class Hunt:
 
         return min(self.extra_of, key=ratio)
 
-    def ask_extra(self, cam: str, asked: Mapping[str, float]) -> None:
-        """Have designs with a cam bearing keep a reserve for part errors, by check."""
+    def ask_extra(
+        self, cam: str, asked: Mapping[str, float], had: Mapping[str, float] = MappingProxyType({})
+    ) -> None:
+        """Have designs with a cam bearing keep a reserve for part errors, by check.
+
+        `had` is the reserve of the one whose part errors ask for that.
+        """
         own = self.extra_of.get(cam, {})
+        self.had = cam, dict(had)
         self.extra_of[cam] = own | {
             one: max(own.get(one, 1.0), more) for one, more in asked.items()
         }
+
+    def relent(self) -> bool:
+        """Whether less reserve is asked for: a little more than that with which a design failed.
+
+        What part errors ask of one design another may do without. No more often than a few times.
+        """
+        cam, had = self.had
+        asked = self.extra_of.get(cam, {})
+        less = {one: min(more, _A_LITTLE * had.get(one, math.inf)) for one, more in asked.items()}
+        if self.relented == _MOST_RELENTED or less == asked:
+            return False
+        self.extra_of[cam], self.relented = less, self.relented + 1
+        return True
 
     @property
     def may_roll(self) -> bool:

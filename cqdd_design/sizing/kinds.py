@@ -20,7 +20,7 @@ from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.known import answered, key_of, least_of, near_by, note, own_of
 from cqdd_design.sizing.rings import FAR_SHORT, NOT_FAR, Rings, finer
 from cqdd_design.sizing.search import Search
-from cqdd_design.sizing.shafts import ANY_TORQUE, ENDS, THICKNESS
+from cqdd_design.sizing.shafts import ANY_TORQUE, ENDS, THICKNESS, with_sound_ends
 from cqdd_design.sizing.spaces import Found, Space, spaces
 
 _SLACK = 1.08
@@ -119,7 +119,8 @@ def _best(hunt: Hunt, every: Sequence[Found]) -> Found | None:
         best = _hoped_for(hunt) or best
     if best is None:
         hunt.trusting = not hunt.has_extra
-        best = tightest(hunt)
+        tight = tightest(hunt)
+        best = None if tight is None else with_sound_ends(tight)
         hunt.trusting = False
     return best
 

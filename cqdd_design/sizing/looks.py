@@ -403,13 +403,11 @@ def _ask_extra(hunt: Hunt, machine: Machine, over: Mapping[str, float]) -> None:
     compare it with, and where bodies yield a design has more.
     """
     lines = hunt.held_against(machine)[1]
-    by_id = {line.id: line for line in lines}
+    had = {one.id: torque_reserve(one, machine.design) for one in lines if one.id in over}
     hunt.ask_extra(
         machine.design.reducer.cam_bearing.designation,
-        {
-            check: max(torque_reserve(by_id[check], machine.design) * _torque(check, ratio), 1.0)
-            for check, ratio in over.items()
-        },
+        {check: max(had[check] * _torque(check, ratio), 1.0) for check, ratio in over.items()},
+        had,
     )
 
 

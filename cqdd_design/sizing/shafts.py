@@ -17,6 +17,7 @@ import numpy as np
 from cqdd_design.errors import DesignError, GeometryError
 from cqdd_design.machine import Machine
 from cqdd_design.machine.end_bearing import on_stronger_ends
+from cqdd_design.machine.temperatures import judged_temperatures
 from cqdd_design.results import Check
 from cqdd_design.sizing.able import PEAK
 from cqdd_design.sizing.bearable import JUST, bearable, weaker
@@ -24,6 +25,7 @@ from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.spaces import Found
 from cqdd_design.solids.proportions import seat_bearings
 from cqdd_design.verdict.bore_line import bore_line
+from cqdd_design.verdict.joint_lines import bell_line
 from cqdd_design.verdict.rotor_lines import rotor_lines
 from cqdd_design.verdict.shaft_lines import shaft_lines
 
@@ -76,11 +78,17 @@ def with_sound_ends(found: Found) -> Found:
     if not found.weak or not {line.id for line in found.weak} <= _ENDS_ALONE:
         return found
     for other in on_stronger_ends(replace(sized.machine, stiff=True)):
-        if weak_lines(other):
+        # A smaller bore leaves the rotor a thinner stub to be bonded on.
+        if weak_lines(other) or _gives_way(other):
             continue
         named = other.seats[0].bearing.designation
         return replace(found, sized=sized.remade({_END: named}), weak=())
     return found
+
+
+def _gives_way(machine: Machine) -> bool:
+    """Whether the bond of shaft and bell does, as warm as the machine gets."""
+    return bell_line(machine, judged_temperatures(machine)[0]).status == "fail"
 
 
 def stronger_shaft(hunt: Hunt, found: Found, every: Iterable[Check]) -> None:

@@ -170,7 +170,9 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
             break
         try:
             if found.weak:
-                stronger_shaft(hunt, found, found.weak)
+                # What part errors ask for may have led to a shaft that is too thin.
+                if hunt.requirements.derived or not hunt.relent():
+                    stronger_shaft(hunt, found, found.weak)
                 found = _better(hunt, found, sound, trial)
                 continue
             asks = (sound is None or sound.found is not found) and learn(hunt, found)
@@ -290,6 +292,8 @@ def _again(hunt: Hunt, found: Found) -> Found | None:
     """
     better = lightest(hunt)
     if better is None and turn_to_less_throw(hunt):
+        better = lightest(hunt)
+    if better is None and not hunt.requirements.derived and hunt.relent():
         better = lightest(hunt)
     if better is None:
         better = eased(hunt, found, MUCH)

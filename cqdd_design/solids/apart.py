@@ -50,6 +50,8 @@ _LEVEL = 1e-7
 """Heights closer than this are one, m."""
 _IN_POCKETS = {"ring pin", "ring roller", "ring needle cage"}
 """Parts that a ring holds in its pockets."""
+_ON_COVER = {"encoder board", "encoder screw"}
+"""Parts that go with the motor cover."""
 _MAGNET = "encoder magnet"
 Way = Literal["up", "down"]
 
@@ -115,7 +117,9 @@ def _bonds(things: Sequence[_Thing]) -> _Bonds:
     Cam bearings with their discs.
 
     A stator goes with the housing that it is bonded on, the encoder's magnet with its shaft, pins
-    with the ring in whose pockets they stand; these may leave it, but it does not leave them.
+    with the ring in whose pockets they stand; these may leave it, but it does not leave them. So
+    with the motor cover and the encoder's board: taken off first, it is put on last, when bell and
+    magnet have been set from the face that it closes.
     """
     bonds: _Bonds = {}
     for host in things:
@@ -127,6 +131,8 @@ def _bonds(things: Sequence[_Thing]) -> _Bonds:
                 bonds.setdefault(id(bearing), []).append(host)
         if host.station.part.name == "ring":
             bonds[id(host)] = [one for one in things if one.station.part.name in _IN_POCKETS]
+        if host.station.part.name == "motor cover":
+            bonds[id(host)] = [one for one in things if one.station.part.name in _ON_COVER]
         for joint in host.station.part.features:
             if not isinstance(joint, Joint) or joint.kind != "bonded":
                 continue

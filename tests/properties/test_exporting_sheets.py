@@ -413,6 +413,14 @@ def test_a_plain_hole_that_the_view_hides_goes_through(machine):
     assert "through, from the far side" in texts
 
 
+def test_a_seat_over_a_thread_right_through_is_on_the_far_side_of_the_view(printed):
+    """Seen from the output the threads come through, and the pins' seats are behind them."""
+    plate = next(part for part in printed.parts if part.name == "carrier plate")
+    threads = next(one for one in plate.features if one.name == "threads of the pins")
+    assert threads.through
+    assert "fitted bore from the far side" in texts_of(svg_text(drawn(plate, printed), ""))
+
+
 def test_the_sheet_of_a_loose_cam_says_when_it_is_ground(machine):
     """Its lobe, before: the order of assembly has a disc and a bearing on the shaft by then."""
     three = resolve(machine.given.replacing({"reducer.disc_count": 3}))

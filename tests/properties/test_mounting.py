@@ -8,6 +8,7 @@ from functools import lru_cache
 from pathlib import Path
 
 import manifold3d
+import numpy as np
 import pytest
 
 from cqdd_design.actuator.specimen import AS_DRAWN
@@ -19,6 +20,7 @@ from cqdd_design.machine.screws import screw_joints
 from cqdd_design.solids.features.holes import ClearanceHole, TappedHole
 from cqdd_design.solids.interference import posed_manifold
 from cqdd_design.solids.mesh import FINE
+from cqdd_design.solids.part import overall_size
 from cqdd_design.verdict.asked import asked_lines
 from cqdd_design.verdict.evidence import gather
 from cqdd_design.verdict.headline import headline
@@ -125,3 +127,16 @@ def test_a_stop_is_judged_by_all_that_gives_way() -> None:
     assert line.limit < 0.7 * carried
     peak = headline(worse, verdict_lines(worse))[0]
     assert peak.value is None or peak.value <= line.limit * 1.01
+
+
+@pytest.mark.parametrize("name", ["cqdd-10", "printed-13"])
+def test_the_overall_diameter_is_that_of_the_solids(name: str) -> None:
+    """The ears of the covers are arcs, whose middle is farther out than their ends."""
+    machine = drawn(name)
+    told, _ = overall_size(machine.parts)
+    reach = 0.0
+    for part in machine.parts:
+        for piece in part.instances:
+            mesh = posed_manifold(part, piece.placement, FINE).to_mesh().vert_properties
+            reach = max(reach, float(np.hypot(mesh[:, 0], mesh[:, 1]).max()))
+    assert 1e3 * told == pytest.approx(2.0 * reach, abs=0.02)

@@ -13,6 +13,7 @@ from cqdd_design.machine import Machine, resolve
 from cqdd_design.solids.apart import taken_apart
 
 TOP = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[2]
 DESIGNS = ("designs/cqdd-10", "designs/printed-13", "docs/gallery/three-discs-9")
 
 
@@ -40,3 +41,16 @@ def test_outer_rings_that_the_load_turns_in_are_held(machine: Machine) -> None:
     (bond,) = (one for one in bonds(machine) if one.place == "outer rings of the shaft bearings")
     assert (bond.diameter, bond.length, bond.count) == (support.outer_diameter, support.width, 2)
     assert "keeps the outer rings from creeping" in fitting_notes(machine)["shaft bearing"]
+
+
+@pytest.mark.parametrize("name", ["docs/gallery/efficient-10", "docs/gallery/plain-10"])
+def test_the_motor_cover_goes_on_when_bell_and_magnet_have_been_set(name: str) -> None:
+    """From the face that it closes, by a height gauge, while the bonds cure."""
+    design = load_design(ROOT / f"{name}.toml")
+    machine = resolve(design)
+    steps, whole = taken_apart(design, machine.parts)
+    assert whole
+    gone = [station.part.name for step in steps if not step.unit for station in step.moved]
+    assert "motor cover" in gone
+    for name in ("rotor bell", "encoder magnet", "eccentric shaft", "housing"):
+        assert gone.index("motor cover") < gone.index(name)

@@ -25,6 +25,7 @@ from cqdd_design.exporting.solids.bom import bill_of_materials
 from cqdd_design.geometry.contours import Circle, as_complex
 from cqdd_design.machine import resolve
 from cqdd_design.roads.export import export
+from cqdd_design.solids.features.holes import FittedHole
 from cqdd_design.verdict.retention_lines import retention_lines
 
 
@@ -160,6 +161,14 @@ def test_threads_in_plastic_become_holes_of_inserts_that_leave_a_wall(every):
     ]
     assert 3.3 not in sizes
     assert sizes.count(5.6) >= 14
+    # The necks of the shoulder screws sit on the motor's side of their threads, to H7.
+    (seat,) = (
+        one for one in plate.drawn.stated if isinstance(one, FittedHole) and "pin" in one.name
+    )
+    assert seat.diameter == pytest.approx(5e-3)
+    lowest = min(bored.shape.layers, key=lambda one: one.bottom)
+    necks = [hole for hole in lowest.shape.holes if isinstance(hole, Circle)]
+    assert sum(abs(2.0 * hole.radius - 5e-3) < 0.05e-3 for hole in necks) == len(seat.circle.angles)
     assert plate.wall.thickness >= plate.material.least_wall
     cover = {threads.thread: threads for threads in by_name["motor cover"].threads}
     assert cover[3e-3].insert is None

@@ -177,9 +177,9 @@ def test_a_bell_far_out_on_a_thin_stub_fails(paper: Design) -> None:
     changes = {
         "reducer": {
             "ratio": 9, "ring_pitch_radius": "17.25 mm", "eccentricity": "0.6 mm",
-            "ring_pin_diameter": "2.7 mm", "disc_thickness": "3 mm", "disc_count": 1,
+            "ring_pin_diameter": "2.7 mm", "disc_thickness": "3.5 mm", "disc_count": 1,
             "output_pins": {"count": 9, "diameter": "4 mm", "circle_radius": "11.6 mm"},
-            "cam_bearing": {"designation": "6700"}, "ring": {"outer_diameter": "39.4 mm"},
+            "cam_bearing": {"designation": "SKF 618/6"}, "ring": {"outer_diameter": "39.4 mm"},
             "carrier": {"joint": "clamped"},
         },
         "requirements": {"ratio": 9, "peak_torque": "2 N*m", "continuous_torque": "0.5 N*m"},

@@ -126,10 +126,13 @@ def test_a_speed_at_its_limit_takes_the_whole_voltage(machine: Machine, judged: 
     line = by_id(judged.lines)["MOTOR-SPEED"]
     assert line.value is not None
     speed = line.value * math.pi / 30.0 / machine.design.reducer.ratio
-    need = needed(actuator, 14.0, speed, actuator.thermal.most)
-    volts = need.voltage / actuator.drive.supply_voltage
-    amperes = need.current / actuator.drive.current_limit
-    assert max(volts, amperes) == pytest.approx(1.0, rel=2e-3)
+    shares = []
+    for temperature in (actuator.thermal.most, actuator.thermal.ambient):
+        need = needed(actuator, 14.0, speed, temperature)
+        volts = need.voltage / actuator.drive.supply_voltage
+        shares.append(max(volts, need.current / actuator.drive.current_limit))
+    # Of a cold motor, whose magnets are stronger.
+    assert max(shares) == pytest.approx(shares[1]) == pytest.approx(1.0, rel=2e-3)
 
 
 @pytest.mark.parametrize(

@@ -77,7 +77,9 @@ def with_inserts(part: Part, least_wall: float) -> tuple[Part, tuple[ThreadedHol
     least_wall : float
         That the part's material can have, m.
     """
-    tapped = {one.thread: one for one in part.stated if isinstance(one, TappedHole)}
+    threads = [one for one in part.stated if isinstance(one, TappedHole)]
+    tapped = {one.thread: one for one in threads}
+    through = {_rounded(x, y) for one in threads if one.through for x, y in one.circle.centres}
     fitted = {
         _rounded(x, y): 0.5 * one.diameter
         for one in part.stated
@@ -91,7 +93,7 @@ def with_inserts(part: Part, least_wall: float) -> tuple[Part, tuple[ThreadedHol
         depths, rooms = _depths(part.shape, drill), _rooms(part.shape, drill)
         fitting = {
             place: _fitting(thread, depth, rooms[place] - least_wall)
-            if place not in fitted or drilled.through
+            if place not in fitted or place in through
             else None
             for place, depth in depths.items()
         }
