@@ -265,7 +265,7 @@ def test_simulators_are_told_what_the_gearbox_does_not_carry() -> None:
     (said,) = left_out(design, "urdf,card")
     assert re.match(r"urdf, card: motor and drive give up to 6\d\.\d N\*m, the effort limit", said)
     assert re.search(
-        r"does not carry it: static rating of the cam bearing from 4\d(\.\d)? N\*m", said
+        r"does not carry it: static rating of the cam bearing from 5\d(\.\d)? N\*m", said
     )
     assert left_out(design, "dxf") == ()
     # Where it carries all that they give, nothing is said.

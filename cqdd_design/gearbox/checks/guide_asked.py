@@ -105,7 +105,8 @@ ROWS = (
         "N*m",
         "max",
         "torque when the output stops at the required shock speed <= what the gearbox carries",
-        "Legs hit things: rotor and crank run on, and the gearbox is the spring that stops them.",
+        "Legs hit things: rotor and crank run on, and the gearbox is the spring that stops them. "
+        "The motor is off; what it asks where it drives on is told beside.",
         "time simulation of the stopped output; static limits of the checks",
         basis="simulated actuator, its phases open",
     ),

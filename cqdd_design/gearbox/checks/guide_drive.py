@@ -99,8 +99,8 @@ ROWS = (
         "Motor speed under the continuous torque",
         "rpm",
         "min",
-        "fastest at which voltage, driver and motor give the continuous torque, winding hot >= "
-        "input speed",
+        "fastest at which voltage, driver and motor give the continuous torque, motor hot or "
+        "cold >= input speed",
         "What the winding's resistance takes of the voltage is no speed. Where continuous_speed "
         "gives the continuous torque a speed of its own, that torque is judged there, and none is "
         "asked at the input speed. The first screen takes the speed without load, KV U.",
@@ -150,12 +150,13 @@ ROWS = (
     ),
     CheckGuide(
         "DUTY-ENVELOPE",
-        "Steps of the duty beyond motor or driver",
+        "Steps of the duty beyond motor, driver or peak torque",
         "",
         "max",
-        "steps outside the torque and speed that driver, voltage and motor reach <= 0",
-        "What the actuator cannot do it will not do: the load runs away or stands. Shown only "
-        "with a duty.",
+        "steps outside the torque and speed that driver, voltage and motor reach, cold or hot, or "
+        "above the peak torque <= 0",
+        "What the actuator cannot do it will not do: the load runs away or stands; and what is "
+        "above the peak torque no part is judged for. Shown only with a duty.",
         "motor catalogue; losses of the gearbox",
         basis="operating points of the simulated actuator",
     ),
