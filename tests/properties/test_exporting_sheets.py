@@ -339,7 +339,12 @@ def test_a_balance_weight_can_be_made_from_its_sheet(printed):
 
 
 def test_weights_go_in_with_the_bell_that_they_are_bonded_on(printed):
-    order = AssemblyFacts(printed).order()
+    facts = AssemblyFacts(printed)
+    order = facts.order()
+    (told,) = (note for note in facts.notes() if "heat-set inserts" in note)
+    items = {row[0] for row in facts.parts_list() if row[2] == "heat-set insert"}
+    assert items
+    assert items == set(re.findall(r"\d+", told))
     weights = [said for said in order if "balance weight" in said]
     assert len(weights) == 2
     assert all(said.startswith("unit of the rotor bell: ") for said in weights)

@@ -25,6 +25,9 @@ _LEAST_GAP = 20e-6
 """Mean radial gap of a bond whose fit is tighter, m."""
 _ML = 1e6
 
+INSERT = "heat-set insert"
+"""What a bill calls those in plastic."""
+
 
 @dataclass(frozen=True)
 class Consumable:
@@ -180,5 +183,5 @@ def _inserts(machine: Machine) -> list[Consumable]:
         places = ", ".join(f"{count} in the {part}" for part, count in where.items())
         how = f"melted into holes of {1e3 * insert.hole:g} mm: {places}"
         count = sum(where.values())
-        found.append(Consumable("heat-set insert", insert.name, how, "", insert.source, count))
+        found.append(Consumable(INSERT, insert.name, how, "", insert.source, count))
     return found

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from cqdd_design.catalog.adhesives import NUT_LOCKING
 from cqdd_design.catalog.tightening import torque_words
-from cqdd_design.exporting.bill.consumables import consumables
+from cqdd_design.exporting.bill.consumables import INSERT, consumables
 from cqdd_design.exporting.bill.substitutes import bought_of, ordered
 from cqdd_design.exporting.sheets.wording import joint_note
 from cqdd_design.machine.centring import centring
@@ -107,6 +107,7 @@ class AssemblyFacts:
             for feature in part.features:
                 if isinstance(feature, Joint) and feature.kind != "screwed":
                     said.append(f"{_capital(part.name)}: {joint_note(feature)}")
+        said += self._inserts()
         said.append(self._grease())
         said.append(ring_seating(self.machine))
         said.append(motor_standing(self.machine))
@@ -120,6 +121,16 @@ class AssemblyFacts:
         )
         said.append("Screws lightly oiled; torques by VDI 2230 for a torque wrench.")
         return said
+
+    def _inserts(self) -> list[str]:
+        """When those in plastic go in, which stand in no view and in no step."""
+        items = [row[0] for row in self.parts_list()[len(self.parts) :] if row[2] == INSERT]
+        if not items:
+            return []
+        return [
+            f"Items {', '.join(items)}, heat-set inserts, are melted into their holes before "
+            "anything is put together; the section shows none."
+        ]
 
     def _nut(self) -> str:
         (nut,) = (part for part in self.parts if part.name == "bearing nut")
