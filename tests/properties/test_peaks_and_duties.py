@@ -15,11 +15,15 @@ from cqdd_design.actuator.shock import peak_current, simulated_torque
 from cqdd_design.design import Design, load_design
 from cqdd_design.gearbox.contact.rubbing import ContactFriction
 from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
+from cqdd_design.gearbox.pack_loads import PackLoads
 from cqdd_design.gearbox.tolerance.ensemble import make_ensemble
 from cqdd_design.gearbox.tolerance.run import run_ensemble
 from cqdd_design.machine import Machine, resolve
+from cqdd_design.machine.body_analysis import analyse_bodies
+from cqdd_design.machine.contact_analysis import analyse_contact
 from cqdd_design.machine.dowels import loaded_dowels
 from cqdd_design.results import Check
+from cqdd_design.verdict.drawn import drawn_gearboxes
 from cqdd_design.verdict.motor import motor_lines
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -57,6 +61,29 @@ def test_the_peak_torque_loads_a_gearbox_that_stands(machine: Machine) -> None:
     running = ContactFriction.of(model, "drive")
     film = contact_sweep(model, torque, perfect_angles(model, 120), friction=running)
     assert loads["cam_bearing_load_max_N"] > 1.01 * film.cam_load.max()
+
+
+def test_shaft_and_bodies_are_loaded_at_rest(machine: Machine) -> None:
+    """What the shaft carries, and what stresses discs and ring, at the peak torque."""
+    torque, model = machine.design.requirements.peak_torque, machine.contact
+    angles, rest = perfect_angles(model, 120), ContactFriction.of(model, "drive", 0.0)
+    sweeps = [contact_sweep(model, one, angles, friction=rest) for one in (torque, -torque)]
+    assert machine.peak_pack.on_shaft == pytest.approx(PackLoads.of(sweeps).on_shaft, rel=1e-9)
+    rubbed = {"reducer.friction.tooth": 0.1, "reducer.friction.pin": 0.1}
+    other = machine.changed(rubbed)
+    own, given = (analyse_bodies(one) for one in (machine, other))
+    assert [one.stress for one in own.peaks] == pytest.approx([one.stress for one in given.peaks])
+    shown, as_given = (analyse_contact(one, angles=24) for one in (machine, other))
+    assert shown.sweep.cam_load == pytest.approx(as_given.sweep.cam_load, rel=1e-9)
+
+
+def test_a_verdict_draws_its_gearboxes_at_rest_and_running(machine: Machine) -> None:
+    drawn = drawn_gearboxes(machine, 2, sensitivity=False, rigid=True)
+    assert drawn.peak.ensemble.at_rest
+    assert not drawn.continuous.ensemble.at_rest
+    asked = machine.design.requirements
+    assert drawn.peak.ensemble.torque == asked.peak_torque
+    assert drawn.continuous.ensemble.torque == asked.continuous_torque
 
 
 def test_toleranced_gearboxes_rub_at_rest_too(design: Design) -> None:
