@@ -318,14 +318,13 @@ class Requirements(FrozenModel):
         """The torque that stands for a duty, or without one the continuous torque, N m.
 
         Of torques at their turns the mean by cubes, by which ball bearings last; of a duty that
-        only stands, the greatest.
+        only stands, the greatest; of one without any torque, the continuous torque.
         """
         cases = self.load_cases
         turns = sum(one.share * abs(one.speed) for one in cases)
-        if not turns:
-            return self.lasting_torque
         cubes = sum(one.share * abs(one.speed) * abs(one.torque) ** 3 for one in cases)
-        return float((cubes / turns) ** (1.0 / 3.0)) or self.lasting_torque
+        mean = float((cubes / turns) ** (1.0 / 3.0)) if turns else 0.0
+        return mean or self.lasting_torque or self.continuous_torque
 
     def with_duty_log(self, log: DutyLog | None) -> Requirements:
         """The same requirements with what their duty's file says."""

@@ -112,6 +112,9 @@ def test_a_duty_is_drawn_at_the_torque_that_stands_for_it(design: Design) -> Non
     still = [{"torque": "20 N*m", "speed": "0 rad/s", "share": 0.3}]
     held = design.replacing({"requirements.duty": still})
     assert held.requirements.equal_torque == 20.0
+    idle = [{"torque": "0 N*m", "speed": "2 rad/s", "share": 0.3}]
+    spun = design.replacing({"requirements.duty": idle}).requirements
+    assert spun.equal_torque == spun.continuous_torque
 
 
 def test_a_duty_beyond_the_peak_torque_is_outside(design: Design) -> None:
