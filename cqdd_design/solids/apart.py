@@ -122,6 +122,7 @@ def _bonds(things: Sequence[_Thing]) -> _Bonds:
     magnet have been set from the face that it closes.
     """
     bonds: _Bonds = {}
+    belled = any(one.station.part.name == "rotor bell" for one in things)
     for host in things:
         if host.station.body.kind == "disc" and host.station.part.source == "make":
             pressed = host.station.name.replace("disc", "cam bearing")
@@ -131,7 +132,7 @@ def _bonds(things: Sequence[_Thing]) -> _Bonds:
                 bonds.setdefault(id(bearing), []).append(host)
         if host.station.part.name == "ring":
             bonds[id(host)] = [one for one in things if one.station.part.name in _IN_POCKETS]
-        if host.station.part.name == "motor cover":
+        if host.station.part.name == "motor cover" and belled:
             bonds[id(host)] = [one for one in things if one.station.part.name in _ON_COVER]
         for joint in host.station.part.features:
             if not isinstance(joint, Joint) or joint.kind != "bonded":

@@ -131,7 +131,7 @@ def test_classes_of_clearance_follow_each_other() -> None:
 
 @pytest.fixture(scope="module")
 def machine() -> Machine:
-    return resolve(load_design(ROOT / "docs" / "gallery" / "knee-8.toml"))
+    return resolve(load_design(ROOT / "docs" / "gallery" / "plain-10.toml"))
 
 
 @pytest.fixture(scope="module")
