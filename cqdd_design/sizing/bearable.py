@@ -139,11 +139,13 @@ def weaker(requirements: Requirements, peak: float, lasting: float) -> Requireme
     Parameters
     ----------
     peak, lasting : float
-        Of the peak and of the continuous torque; this is never left above that.
+        Of the peak and of the continuous torque; this is never left above that, nor that below the
+        greatest torque of a duty.
     """
     most = requirements.peak_torque
     if PEAK in requirements.derived and peak < 1.0:
-        most = max(rounded_down(peak * most, _DIGITS), LEAST_TORQUE)
+        greatest = max((abs(one.torque) for one in requirements.load_cases), default=LEAST_TORQUE)
+        most = max(rounded_down(peak * most, _DIGITS), min(greatest, most))
     least = requirements.continuous_torque
     if CONTINUOUS in requirements.derived:
         least = min(rounded_down(lasting * least, _DIGITS) if lasting < 1.0 else least, most)

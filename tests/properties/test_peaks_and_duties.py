@@ -23,6 +23,7 @@ from cqdd_design.machine.body_analysis import analyse_bodies
 from cqdd_design.machine.contact_analysis import analyse_contact
 from cqdd_design.machine.dowels import loaded_dowels
 from cqdd_design.results import Check
+from cqdd_design.sizing.bearable import weaker
 from cqdd_design.verdict.drawn import drawn_gearboxes
 from cqdd_design.verdict.motor import motor_lines
 
@@ -193,3 +194,12 @@ def test_dowels_of_the_output_hold_what_pushes_across(design: Design) -> None:
     torque = design.requirements.peak_torque
     assert after.stress.shear / before.stress.shear == pytest.approx(1.0 + 900.0 * circle / torque)
     assert after.across == 900.0
+
+
+def test_a_peak_that_nobody_stated_is_not_lowered_below_the_duty(design: Design) -> None:
+    """What a duty asks for parts have to bear: less would be outside."""
+    duty = [{"torque": "45 N*m", "speed": "0.5 rad/s", "share": 0.1}]
+    changes = {"requirements.duty": duty, "requirements.peak_torque": 60.0}
+    free = design.replacing(changes).requirements.deriving("peak_torque")
+    assert weaker(free, 0.5, 1.0).peak_torque == 45.0
+    assert weaker(free, 0.9, 1.0).peak_torque == 54.0
