@@ -33,6 +33,7 @@ from cqdd_design.geometry.disc import (
     ligaments,
 )
 from cqdd_design.geometry.validate import validate_geometry
+from cqdd_design.machine import resolve
 from cqdd_design.roads.tolerance import tolerance
 from cqdd_design.solids.clocking import disc_groups
 from cqdd_design.solids.selection import cap_screw
@@ -339,3 +340,16 @@ def test_a_cam_bearing_leaves_material_to_the_holes_for_columns() -> None:
     assert most == pytest.approx(2.0 * (19.5e-3 - 0.5 * hole - 1.5e-3))
     plain = largest_outer_diameter(PAPER, hole_diameter(PAPER), valley_distance=1.0)
     assert plain == pytest.approx(2.0 * (19.5e-3 - 0.5 * hole_diameter(PAPER) - 1.5e-3))
+
+
+def test_the_thread_of_a_columns_screw_is_deeper_than_the_longest_reaches() -> None:
+    """A 25 mm screw may be 0.42 mm longer (ISO 4762), and what lies under its head 0.3 thinner."""
+    machine = resolve(with_columns(PAPER, "6 mm"))
+    columns = machine.layout.carrier.columns
+    assert columns is not None
+    (plate,) = (part for part in machine.parts if part.name == "carrier plate")
+    (thread,) = (one for one in plate.features if one.name == "threads of the columns' screws")
+    engaged = columns.thread_top - machine.layout.carrier.plate_bottom
+    assert thread.thread_depth - engaged == pytest.approx(2.0 * thread.pitch)
+    assert thread.thread_depth - engaged > 0.72e-3
+    assert thread.through or thread.drill_depth > thread.thread_depth

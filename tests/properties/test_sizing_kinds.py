@@ -156,6 +156,24 @@ def test_what_errors_ask_of_a_bearing_follows_the_one_rated_most_alike() -> None
     assert hunt.extra_for("")["BEARING-STATIC"] == large
 
 
+def test_less_reserve_is_asked_for_where_none_has_what_one_would_have_needed() -> None:
+    """What part errors ask of one design another may do without; a few times, and no more."""
+    hunt = hunt_for(asked(9, 28.0, 5.0, 1000.0))
+    assert not hunt.relent()
+    for turn, had in enumerate((1.5, 1.6, 1.7, 1.8)):
+        hunt.ask_extra(
+            "6803", {"BEARING-STATIC": 1.9, "BEARING-LIFE": 1.2}, {"BEARING-STATIC": had}
+        )
+        assert hunt.relent() == (turn < 3)
+    assert hunt.extra_of["6803"] == {"BEARING-STATIC": 1.9, "BEARING-LIFE": 1.2}
+    hunt = hunt_for(asked(9, 28.0, 5.0, 1000.0))
+    hunt.ask_extra("6803", {"BEARING-STATIC": 1.9}, {"BEARING-STATIC": 1.6})
+    assert hunt.relent()
+    assert hunt.extra_of["6803"]["BEARING-STATIC"] == pytest.approx(1.02 * 1.6)
+    # It has been asked for.
+    assert not hunt.relent()
+
+
 def test_where_many_have_been_looked_at_no_other_is_hoped_to_need_less(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
