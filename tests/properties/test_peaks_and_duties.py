@@ -13,6 +13,7 @@ from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.operating import needed
 from cqdd_design.actuator.shock import peak_current, simulated_torque
 from cqdd_design.design import Design, load_design
+from cqdd_design.design.duty_log import DutyLog
 from cqdd_design.gearbox.contact.rubbing import ContactFriction
 from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 from cqdd_design.gearbox.pack_loads import PackLoads
@@ -203,3 +204,22 @@ def test_a_peak_that_nobody_stated_is_not_lowered_below_the_duty(design: Design)
     free = design.replacing(changes).requirements.deriving("peak_torque")
     assert weaker(free, 0.5, 1.0).peak_torque == 45.0
     assert 52.0 < weaker(free, 0.9, 1.0).peak_torque <= 54.0
+
+
+@pytest.mark.parametrize(
+    ("torque", "speed", "why"),
+    [(1.0, 29.5, "voltage"), (58.0, 0.0, "1 rows ask for more than the peak torque, line 4")],
+)
+def test_rows_of_a_log_are_judged_cold_and_up_to_the_peak(
+    design: Design, torque: float, speed: float, why: str
+) -> None:
+    """As steps: 29.5 rad/s takes 46 V hot and 51 V cold; 58 N m no part is judged for."""
+    made = np.array([2.0, 2.0, torque, 2.0, 2.0]), np.array([0.5, 0.5, speed, 0.5, 0.5])
+    log = DutyLog("made", f"{torque} {speed}", 2, np.linspace(0.0, 4.0, 5), *made)
+    plain = design.replacing({"motor.voltage": "48 V", "requirements.duty_file": "made.csv"})
+    asked = plain.requirements.with_duty_log(log)
+    machine = replace(resolve(plain.model_copy(update={"requirements": asked})), stiff=True)
+    lines = motor_lines(machine, actuator_parameters(machine), "")
+    (line,) = (one for one in lines if one.id == "DUTY-ENVELOPE")
+    assert (line.status, line.value) == ("fail", 1.0)
+    assert why in line.substituted
