@@ -10,6 +10,8 @@ from cqdd_design.solids.features.edges import FACE_SHARE
 from cqdd_design.solids.features.making import SHAFT_RIM
 from cqdd_design.solids.selection import ChosenBearing, made_bearing, rounded_down
 
+_CLEAR = 0.2e-3
+"""From the shaft's shoulder to a bearing's outer ring, which turns against it, m."""
 _MOST_WIDTH = 0.9
 """Of a bearing over its bore: wider ones leave no lever between the two."""
 
@@ -44,17 +46,17 @@ class ShaftRoom(NamedTuple):
         """Why a ball bearing does not go there, in words; empty where it does."""
         bore, outside = row.bore_diameter, row.outer_diameter
         most = min(self.most_bore, self.shoulder - 2.0 * _least_shoulder(row.largest_chamfer))
-        inner_ring = 2.0 * ChosenBearing(row).shoulder_radius
+        clear = 2.0 * ChosenBearing(row).lip_radius - 2.0 * _CLEAR
         shoulder = f"the shaft's shoulder of {self.shoulder * 1e3:.4g} mm"
         if bore > most + 1e-9:
             return (
                 f"has a bore of {bore * 1e3:g} mm, and {shoulder} stands beside its chamfer up to "
                 f"{most * 1e3:.4g} mm; choose a smaller bore"
             )
-        if inner_ring < self.shoulder - 1e-9:
+        if self.shoulder > clear + 1e-9:
             return (
-                f"has an inner ring of about {inner_ring * 1e3:.4g} mm, and {shoulder} would rub "
-                "on its cage; choose a higher ring or a larger bore"
+                f"has an outer ring from about {clear * 1e3:.4g} mm on, less what has to stay free "
+                f"of it, and {shoulder} would rub there; choose a higher section or a larger bore"
             )
         if outside > self.most_outer_diameter + 1e-9:
             return (
