@@ -82,11 +82,13 @@ def test_every_cam_bearing_that_goes_in_is_screened() -> None:
 @pytest.mark.parametrize(
     ("requirements", "most"),
     [
-        (asked(14, 42.7, 6.54, 306.0), 0.172),
+        # At rest friction presses the cam bearing by some 3 % more: by chance 177 g, in 50 times the
+        # time of this search.
+        (asked(14, 42.7, 6.54, 306.0), 0.175),
         # A shaft's bearing that is a little too weak, and a larger one for less eccentricity.
         (asked(20, 37.7, 2.34, 880.0), 0.154),
         # A cam bearing a little wider than one whose shaft's ends are far too weak.
-        (asked(8, 13.9, 3.46, 1285.0), 0.1295),
+        (asked(8, 13.9, 3.46, 1285.0), 0.1305),
         # Sound in a ring that was free, too weak an end of the shaft in the same ring held fast.
         (asked(24, 45.4, 2.85, 1428.0), 0.1835),
     ],
