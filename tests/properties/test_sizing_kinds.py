@@ -82,8 +82,8 @@ def test_every_cam_bearing_that_goes_in_is_screened() -> None:
 @pytest.mark.parametrize(
     ("requirements", "most"),
     [
-        # At rest friction presses the cam bearing by some 3 % more: by chance 177 g, in 50 times the
-        # time of this search.
+        # At rest friction presses the cam bearing by some 3 % more: by chance 177 g, in 50 times
+        # the time of this search.
         (asked(14, 42.7, 6.54, 306.0), 0.175),
         # A shaft's bearing that is a little too weak, and a larger one for less eccentricity.
         (asked(20, 37.7, 2.34, 880.0), 0.154),
