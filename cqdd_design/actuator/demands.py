@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from cqdd_design.actuator.duty_points import duty_points
+from cqdd_design.actuator.duty_points import ASKED, SLACK, duty_points
 from cqdd_design.actuator.operating import Judgement, Need, judge, needed
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.thermal import runaway_current, steady_state
@@ -62,13 +62,17 @@ def demands(parameters: ActuatorParameters, requirements: Requirements) -> tuple
     log = requirements.duty_log
     steps = [(f"duty {k}", one.torque, one.speed) for k, one in enumerate(requirements.duty, 1)]
     if log is not None:
-        rows = duty_points(parameters, log).named
+        rows = duty_points(parameters, log, peak).named
         steps = [(f"duty, line {row.line}", row.torque, row.speed) for row in rows]
-    return (*found, *(_step(parameters, *step) for step in steps))
+    return (*found, *(_step(parameters, peak, *step) for step in steps))
 
 
-def _step(parameters: ActuatorParameters, name: str, torque: float, speed: float) -> Demand:
+def _step(
+    parameters: ActuatorParameters, peak: float, name: str, torque: float, speed: float
+) -> Demand:
     """A step of the duty, with its signs: hot, or cold where that alone is outside.
+
+    Above the peak torque, N m, up to which parts are judged, it is outside as well.
 
     Cold magnets ask for more voltage at a speed, hot ones for more current at a torque.
     """
@@ -78,6 +82,8 @@ def _step(parameters: ActuatorParameters, name: str, torque: float, speed: float
         judge(parameters, asked, turning, lasting=False, hot=warm) for warm in (True, False)
     )
     judged = cold if hot.inside and not cold.inside else hot
+    if size > peak * SLACK:
+        judged = replace(judged, binding=(*judged.binding, ASKED))
     return Demand(name, size, turning, generates, lasting=False, found=judged)
 
 
@@ -107,7 +113,7 @@ def duty_heat(parameters: ActuatorParameters, requirements: Requirements) -> Dut
     """Where the winding settles over the duty cycle; None without one."""
     log = requirements.duty_log
     if log is not None:
-        points = duty_points(parameters, log)
+        points = duty_points(parameters, log, requirements.peak_torque)
         current, heat = points.current_rms, points.heat
     elif requirements.duty:
         squares = heat = 0.0

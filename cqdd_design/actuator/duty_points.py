@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -15,7 +16,10 @@ from cqdd_design.design.duty_log import DutyLog
 MOST_NAMED = 3
 """Rows outside that are named."""
 _PIECE = 100_000
-_SLACK = 1.0 + 1e-9
+SLACK = 1.0 + 1e-9
+"""Of a limit, for rounding."""
+ASKED = "peak torque that is asked for"
+"""The limit of the requirements, up to which parts are judged, beside those of motor and drive."""
 
 
 @dataclass(frozen=True)
@@ -125,8 +129,14 @@ class DutyPoints:
 
 
 @lru_cache(maxsize=4)
-def duty_points(parameters: ActuatorParameters, log: DutyLog) -> DutyPoints:
-    """Judge every row of a duty as a steady point; currents and heat are those of a hot winding."""
+def duty_points(parameters: ActuatorParameters, log: DutyLog, peak: float = math.inf) -> DutyPoints:
+    """Judge every row of a duty as a steady point; currents and heat are those of a hot winding.
+
+    Parameters
+    ----------
+    peak : float
+        Torque above which a row is outside too, N m.
+    """
     weight = log.weights
     worst = np.empty(log.rows)
     squares = heat = taken = fed_back = 0.0
@@ -135,19 +145,19 @@ def duty_points(parameters: ActuatorParameters, log: DutyLog) -> DutyPoints:
         torque, speed = log.torque[rows], log.speed[rows]
         found = _asked(parameters, torque, speed)
         here, power = weight[rows], found.voltage * found.current
-        worst[rows] = np.max(_worst_shares(parameters, torque, speed), axis=1)
+        worst[rows] = np.max(_worst_shares(parameters, torque, speed, peak), axis=1)
         squares += float(here @ found.current**2)
         heat += float(here @ found.heat)
         taken += float(here @ np.maximum(power, 0.0))
         fed_back += float(here @ np.maximum(-power, 0.0))
-    beyond = worst > _SLACK
+    beyond = worst > SLACK
     chosen, stretches = _worst_rows(worst, beyond)
     return DutyPoints(
         rows=log.rows,
         outside=int(beyond.sum()),
         stretches=stretches,
         share_outside=float(weight[beyond].sum() / log.cycle_time),
-        named=tuple(_named(parameters, log, row) for row in chosen),
+        named=tuple(_named(parameters, log, row, peak) for row in chosen),
         current_rms=float(np.sqrt(squares / log.cycle_time)),
         heat=heat / log.cycle_time,
         energy_taken=taken,
@@ -166,11 +176,12 @@ def _asked(
 
 
 def _worst_shares(
-    parameters: ActuatorParameters, torque: FloatArray, speed: FloatArray
+    parameters: ActuatorParameters, torque: FloatArray, speed: FloatArray, peak: float
 ) -> FloatArray:
-    """The greater of `_shares` hot and cold, (M, 3)."""
+    """The greater of `_shares` hot and cold, and that of the peak torque, (M, 4)."""
     hot, cold = (_asked(parameters, torque, speed, hot=warm) for warm in (True, False))
-    return np.maximum(_shares(parameters, hot), _shares(parameters, cold))
+    shares = np.maximum(_shares(parameters, hot), _shares(parameters, cold))
+    return np.column_stack([shares, np.abs(torque) / peak])
 
 
 def _shares(parameters: ActuatorParameters, found: Needs) -> FloatArray:
@@ -196,11 +207,11 @@ def _worst_rows(worst: FloatArray, beyond: NDArray[np.bool_]) -> tuple[list[int]
     return sorted(tops, key=lambda row: -worst[row])[:MOST_NAMED], len(tops)
 
 
-def _named(parameters: ActuatorParameters, log: DutyLog, row: int) -> OutsideRow:
+def _named(parameters: ActuatorParameters, log: DutyLog, row: int, peak: float) -> OutsideRow:
     here = slice(row, row + 1)
-    shares = _worst_shares(parameters, log.torque[here], log.speed[here])[0]
-    names = np.array([DRIVER, VOLTAGE, PEAK])
-    exceeded = shares > _SLACK
+    shares = _worst_shares(parameters, log.torque[here], log.speed[here], peak)[0]
+    names = np.array([DRIVER, VOLTAGE, PEAK, ASKED])
+    exceeded = shares > SLACK
     binding = names[exceeded] if np.any(exceeded) else names[[int(shares.argmax())]]
     return OutsideRow(
         line=log.line(row),

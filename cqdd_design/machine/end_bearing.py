@@ -8,7 +8,7 @@ from cqdd_design.errors import GeometryError
 from cqdd_design.machine.machine import Machine
 from cqdd_design.solids.proportions import shaft_bearings
 
-_KEY = "reducer.support_bearing.designation"
+END_KEY = "reducer.support_bearing.designation"
 
 
 def on_stronger_ends(machine: Machine) -> Iterator[Machine]:
@@ -28,7 +28,7 @@ def on_stronger_ends(machine: Machine) -> Iterator[Machine]:
             continue
         if (one.bearing.static_rating or 0.0) <= least:
             continue
-        other = machine.changed({_KEY: one.bearing.designation})
+        other = machine.changed({END_KEY: one.bearing.designation})
         vars(other).update(
             contact=machine.contact,
             bodies=machine.bodies,

@@ -151,12 +151,13 @@ class Analysis:
     def _duty(self) -> dict[str, object] | None:
         """What the requirements' duty over time comes to, where there is one."""
         evidence = self.verdict.evidence
-        log = evidence.machine.design.requirements.duty_log
+        asked = evidence.machine.design.requirements
+        log = asked.duty_log
         if log is None:
             return None
         followed = {}
         if evidence.actuator is not None:
-            followed = duty_points(evidence.actuator, log).to_dict()
+            followed = duty_points(evidence.actuator, log, asked.peak_torque).to_dict()
         return {"file": log.source} | log.figures.to_dict() | followed
 
 

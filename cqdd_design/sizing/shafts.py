@@ -16,7 +16,7 @@ import numpy as np
 
 from cqdd_design.errors import DesignError, GeometryError
 from cqdd_design.machine import Machine
-from cqdd_design.machine.end_bearing import on_stronger_ends
+from cqdd_design.machine.end_bearing import END_KEY, on_stronger_ends
 from cqdd_design.machine.temperatures import judged_temperatures
 from cqdd_design.results import Check
 from cqdd_design.sizing.able import PEAK
@@ -45,7 +45,6 @@ SHAFT = AT_PEAK | ANY_TORQUE | {"SHAFT-FATIGUE", "SUPPORT-LIFE"} | BONDS
 THICKNESS = frozenset({"SHAFT-STRENGTH", "SHAFT-FATIGUE"})
 """Lines that a thinner shaft does worse."""
 _ENDS_ALONE = frozenset({ENDS, "SUPPORT-LIFE"})
-_END = "reducer.support_bearing.designation"
 _SHORT = frozenset({"fail", "unknown"})
 _THROW = "reducer.eccentricity"
 _LEAST_THROW, _THROW_STEP = 0.6, 0.005
@@ -82,7 +81,7 @@ def with_sound_ends(found: Found) -> Found:
         if weak_lines(other) or _gives_way(other):
             continue
         named = other.seats[0].bearing.designation
-        return replace(found, sized=sized.remade({_END: named}), weak=())
+        return replace(found, sized=sized.remade({END_KEY: named}), weak=())
     return found
 
 

@@ -19,6 +19,9 @@ from cqdd_design.errors import CatalogError, GeometryError
 RING_SHARE = 0.3
 """Height of a bearing's ring as a share of its radial section, for shoulders and envelopes."""
 
+OR_AUTO = 'or "auto" for the catalogue\'s best that fits'
+"""What to name instead of a bearing that does not go there."""
+
 BUSH_MATERIAL = "Bronze CuSn12"
 
 # Head diameter, head height and socket of hexagon socket head cap screws, mm (ISO 4762:2004,
@@ -172,7 +175,7 @@ def named_output_bearing(row: Bearing, room: Room) -> ChosenBearing:
         When it is no bearing for a carrier, or does not go between the pins and the housing.
     """
     chosen, key = ChosenBearing(row), f"carrier_bearing.designation '{row.designation}'"
-    auto = 'or "auto" for the catalogue\'s best that fits'
+    auto = OR_AUTO
     if row.kind not in ("ball", "crossed roller"):
         raise GeometryError(
             f"{key} is a {row.kind} bearing, which does not guide a carrier; choose a ball or "
@@ -209,11 +212,6 @@ def made_bearing(name: str, bore: float, outer: float, width: float, source: str
 def _bulk(row: Bearing) -> tuple[float, str]:
     area = row.outer_diameter**2 - row.bore_diameter**2
     return (round(area * row.width, 12), row.designation)
-
-
-def rounded_down(value: float, step: float) -> float:
-    """The next multiple of a step below a value."""
-    return round(math.floor(round(value / step, 6)) * step, 9)
 
 
 def _rounded_up(value: float, step: float) -> float:

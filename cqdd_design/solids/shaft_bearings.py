@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 from cqdd_design.catalog.bearings import Bearing, bearings
 from cqdd_design.errors import GeometryError
 from cqdd_design.solids.features.edges import FACE_SHARE
 from cqdd_design.solids.features.making import SHAFT_RIM
-from cqdd_design.solids.selection import ChosenBearing, made_bearing, rounded_down
+from cqdd_design.solids.selection import OR_AUTO, ChosenBearing, made_bearing
 
 _CLEAR = 0.2e-3
 """From the shaft's shoulder to a bearing's outer ring, which turns against it, m."""
@@ -101,7 +102,8 @@ def support_bearing(room: ShaftRoom) -> ChosenBearing:
     fitting = fitting_support_bearings(room)
     if fitting:
         return fitting[0]
-    bore = rounded_down(room.most_bore, 0.1e-3)
+    # To tenths of a millimetre, as it is ground.
+    bore = round(math.floor(round(room.most_bore / 0.1e-3, 6)) * 0.1e-3, 9)
     outer = min(1.3 * bore + 1e-3, room.most_outer_diameter)
     width = 0.6 * bore
     name = f"bush {bore * 1e3:.3g} x {outer * 1e3:.3g} x {width * 1e3:.3g} mm"
@@ -122,14 +124,13 @@ def named_support_bearing(row: Bearing, room: ShaftRoom) -> ChosenBearing:
         When it is no ball bearing, or does not go onto the shaft or into the carrier plate.
     """
     key = f"support_bearing.designation '{row.designation}'"
-    auto = 'or "auto" for the catalogue\'s best that fits'
     if row.kind != "ball":
         raise GeometryError(
             f"{key} is a {row.kind} bearing, and the ends of the eccentric shaft are located by "
-            f"ball bearings; choose one of these, {auto}."
+            f"ball bearings; choose one of these, {OR_AUTO}."
         )
     if misfit := room.misfit(row):
-        raise GeometryError(f"{key} {misfit}, {auto}.")
+        raise GeometryError(f"{key} {misfit}, {OR_AUTO}.")
     return ChosenBearing(row)
 
 

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from cqdd_design.actuator.demands import Demand, demands
-from cqdd_design.actuator.duty_points import DutyPoints, duty_points
+from cqdd_design.actuator.duty_points import ASKED, DutyPoints, duty_points
 from cqdd_design.actuator.motor import torque_constant_at
 from cqdd_design.actuator.operating import (
     DRIVER,
@@ -44,8 +44,6 @@ _RAISED = {
 }
 """What to raise where it binds."""
 _LOWER_CONTINUOUS = "lower requirements.continuous_torque to about"
-_SLACK = 1.0 + 1e-9
-"""Of a torque, for rounding."""
 _MOST_RAISED = 10.0
 """Above so many times what there is it is no cure."""
 _ZOOMS, _SPEEDS = 3, 33
@@ -105,8 +103,8 @@ def motor_lines(
         *_bore(machine),
     ]
     if asked.duty_log is not None:
-        return (*lines, _logged(duty_points(actuator, asked.duty_log), asked))
-    return (*lines, _duty(duty, asked)) if duty else tuple(lines)
+        return (*lines, _logged(duty_points(actuator, asked.duty_log, asked.peak_torque)))
+    return (*lines, _duty(duty)) if duty else tuple(lines)
 
 
 _LIMITS = ("MOTOR-PEAK", "MOTOR-CONTINUOUS", "MOTOR-SPEED")
@@ -334,32 +332,23 @@ def _behind(machine: Machine, ring: float) -> tuple[Check, ...]:
     return (build_check("MOTOR-BORE", 1e3 * ring, None, why, GIVE),)
 
 
-def _logged(found: DutyPoints, asked: Requirements) -> Check:
+def _logged(found: DutyPoints) -> Check:
     """Rows of a duty over time."""
-    log = asked.duty_log
-    assert log is not None
-    above = np.abs(log.torque) > _SLACK * asked.peak_torque
-    told = found.told
-    if above.any():
-        row = int(np.abs(log.torque).argmax())
-        told = (
-            f"{int(above.sum())} rows ask for more than the peak torque, line {log.line(row)} for "
-            f"most: {log.torque[row]:.4g} N*m; {told}"
-        )
-    return _envelope(max(found.outside, int(above.sum())), told, above=bool(above.any()))
+    above = any(ASKED in row.binding for row in found.named if found.outside)
+    return _envelope(found.outside, found.told, above=above)
 
 
-def _duty(steps: list[Demand], asked: Requirements) -> Check:
-    above = {step.name for step in steps if step.torque > _SLACK * asked.peak_torque}
-    outside = [step for step in steps if not step.found.inside or step.name in above]
+def _duty(steps: list[Demand]) -> Check:
+    outside = [step for step in steps if not step.found.inside]
     told = "; ".join(
         f"{step.name}: {step.torque:g} N*m at {step.speed:g} rad/s, {' and '.join(b)}"
         for step in outside[:3]
-        for b in [(*step.found.binding, *(["above the peak torque"] if step.name in above else []))]
+        for b in [step.found.binding]
     )
     more = f" and {len(outside) - 3} more" if len(outside) > 3 else ""
     told = f"{told}{more}" or f"all {len(steps)} steps are inside"
-    return _envelope(len(outside), told, above=bool(above))
+    above = any(ASKED in step.found.binding for step in outside)
+    return _envelope(len(outside), told, above=above)
 
 
 def _envelope(outside: int, told: str, *, above: bool) -> Check:

@@ -25,7 +25,7 @@ from cqdd_design.files.kernel_cache import numba
 from cqdd_design.files.kernel_part import part
 
 
-@numba.njit(cache=True, error_model="numpy", nogil=True)
+@numba.njit(cache=True, error_model="numpy")
 def add_contacts(
     near: Any, share: Any, normal: Any, shear: Any, deeper: Any, pushed: Any, rubbed: Any
 ) -> None:
@@ -93,7 +93,7 @@ def _inverse(a: float, b: float, c: float) -> tuple[float, float, float]:
     return c / determinant, -b / determinant, a / determinant
 
 
-@numba.njit(cache=True, error_model="numpy", nogil=True)
+@numba.njit(cache=True, error_model="numpy")
 def add_bearing(
     near: Any,
     share: Any,

@@ -92,7 +92,7 @@ def compliance_at(compliance: Compliance, a: int) -> Compliance:
     return Compliance(compliance.pins, compliance.at_cap, compliance.join, some)
 
 
-@numba.njit(cache=True, error_model="numpy", nogil=True)
+@numba.njit(cache=True, error_model="numpy")
 def yield_sweep(
     contacts: Contacts,
     springs: Springs,

@@ -113,7 +113,7 @@ def solve_raised(
     return status, steps + used, torsional
 
 
-@numba.njit(cache=True, error_model="numpy", nogil=True)
+@numba.njit(cache=True, error_model="numpy")
 def rub_sweep(
     contacts: Contacts,
     springs: Springs,

@@ -97,7 +97,7 @@ def contacts_at(contacts: Contacts, a: int) -> Contacts:
     )
 
 
-@numba.njit(cache=True, error_model="numpy", nogil=True)
+@numba.njit(cache=True, error_model="numpy")
 def solve_sweep(
     contacts: Contacts, springs: Springs, load: Load, turns: Any, result: SweepResult
 ) -> int:
