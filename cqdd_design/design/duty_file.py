@@ -10,7 +10,9 @@ import csv
 import hashlib
 import io
 import math
+import re
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from typing import BinaryIO, NamedTuple, NoReturn
 
@@ -26,6 +28,7 @@ MOST_ROWS = 10_000_000
 """A day at 100 Hz, and some."""
 MOST_TORQUE, MOST_SPEED = 1e5, 1e4
 """N m and rad/s: a robot joint, not a mill; the bounds of a step of `duty`."""
+_IN_BRACKETS = re.compile(r"([^\[(]*)[\[(](.*?)[\])]?")
 _PIECE = 100_000
 _BYTES = 1 << 20
 _LONGEST_LINE = 100_000
@@ -38,6 +41,12 @@ _NAMES: dict[str, tuple[Dimension, tuple[str, ...]]] = {
     "speed": (LOAD_SPEED, ("speed", "velocity", "omega", "rate")),
 }
 """Quantities, and what their columns are usually called."""
+_ENDINGS = {
+    "time": {"_s": "s", "_ms": "ms"},
+    "torque": {"_nm": "N*m"},
+    "speed": {"_rad_s": "rad/s", "_deg_s": "deg/s", "_rpm": "rpm"},
+}
+"""Units as loggers write them behind those names."""
 
 
 _TEMPLATE_HEAD = (
@@ -90,8 +99,9 @@ def read_duty(path: Path, columns: DutyColumns | None = None) -> DutyLog:
     ----------
     path : Path
         Columns apart by commas, semicolons or tabs, under one line of headings such as
-        ``time [s],torque [N*m],speed [rad/s]``; lines before that begin with ``#``. Other columns
-        are left alone. Samples need not be even.
+        ``time [s],torque [N*m],speed [rad/s]``; lines before that begin with ``#``. Units may
+        stand in round brackets, or behind the name as in ``speed_rpm``. Other columns are left
+        alone. Samples need not be even.
     columns : DutyColumns, optional
         Which columns are meant, and their units, where the headings do not say.
 
@@ -152,7 +162,7 @@ def _column(path: Path, head: list[str], quantity: str, wanted: str) -> _Column:
         places = [k for k, cell in enumerate(head) if cell == wanted]
         places = places or [k for k, cell in enumerate(head) if _split(cell)[0] == name]
     else:
-        places = [k for k, cell in enumerate(head) if _split(cell)[0].lower() in usual]
+        places = [k for k, cell in enumerate(head) if _usual(cell, quantity)[0].lower() in usual]
     if len(places) != 1:
         there = ", ".join(head[:12]) + (", ..." if len(head) > 12 else "")
         if len(places) > 1:
@@ -167,7 +177,7 @@ def _column(path: Path, head: list[str], quantity: str, wanted: str) -> _Column:
             f'"{quantity}={head[0][:40]}".'
         )
     place = places[0]
-    own = _split(head[place])[1]
+    own = (_split if wanted else partial(_usual, quantity=quantity))(head[place])[1]
     if unit and own and unit != own and head[place] != wanted:
         raise DesignError(
             f"{path}: column '{head[place]}' says {own}, and duty_columns says {unit}; keep one."
@@ -176,9 +186,18 @@ def _column(path: Path, head: list[str], quantity: str, wanted: str) -> _Column:
 
 
 def _split(heading: str) -> tuple[str, str]:
-    """Name and unit of a heading such as ``speed [rad/s]``."""
-    name, bracket, rest = heading.strip().partition("[")
-    return name.strip(), rest.rstrip("] ").strip() if bracket else ""
+    """Name and unit of a heading such as ``speed [rad/s]`` or ``speed (rad/s)``."""
+    found = _IN_BRACKETS.fullmatch(heading.strip())
+    return (found[1].strip(), found[2].strip()) if found else (heading.strip(), "")
+
+
+def _usual(heading: str, quantity: str) -> tuple[str, str]:
+    """The same, of ``speed_rpm`` too where speed is looked for."""
+    for name in _NAMES[quantity][1]:
+        for ending, unit in _ENDINGS[quantity].items():
+            if heading.lower() == name + ending:
+                return name, unit
+    return _split(heading)
 
 
 def _factor(path: Path, heading: str, unit: str, dimension: Dimension) -> float:

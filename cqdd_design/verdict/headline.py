@@ -134,7 +134,7 @@ def _peak(evidence: Evidence, motor: Check, lines: Sequence[Check]) -> Figure:
     """What motor and gearbox both reach."""
     machine = evidence.machine
     required = machine.design.requirements.peak_torque
-    title, name = "peak torque at standstill", "peak_torque"
+    title, name = "peak torque at standstill, motor cold", "peak_torque"
     ways = [] if motor.value is None else [(motor.value, motor.basis)]
     # What gives way beyond that is not looked for.
     carried = carried_up_to(machine, ways[0][0]) if ways else carried_torque(machine)

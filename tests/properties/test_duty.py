@@ -55,6 +55,10 @@ def written(tmp_path: Path, text: str, name: str = "knee.csv") -> Path:
          DutyColumns(torque="Torque, knee")),
         ("\ufeffTIME [s],TAU [N*m],OMEGA [turn/s]\r\n0,3,0.25\r\n0.5,-4,0\r\n"
          "2,3,0.15915494309189535\r\n\r\n", None),
+        ("time_ms,torque_Nm,speed_rpm,temperature_C\n0,3,15,20\n500,-4,0,20\n"
+         "2000,3,9.549296585513721,20\n", None),
+        ("time (s),torque (N*m),velocity (deg/s)\n0,3,90\n0.5,-4,0\n2,3,57.29577951308232\n",
+         None),
     ],
 )  # fmt: skip
 def test_columns_of_any_name_order_and_unit_are_read(tmp_path, text, columns):
@@ -64,7 +68,7 @@ def test_columns_of_any_name_order_and_unit_are_read(tmp_path, text, columns):
     assert log.speed == pytest.approx([0.5 * math.pi, 0.0, 1.0])
     assert log.weights == pytest.approx([0.25, 1.0, 0.75])
     lines = text.splitlines()
-    assert lines[log.line(1) - 1].strip().startswith(("0.5", "0;", "-4"))
+    assert lines[log.line(1) - 1].strip().startswith(("0.5", "0;", "-4", "500"))
 
 
 @pytest.mark.parametrize(

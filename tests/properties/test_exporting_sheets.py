@@ -359,6 +359,7 @@ def test_the_sheet_of_a_plastic_part_names_the_inserts_in_its_threads(printed):
     plate = next(p for p in printed.parts if p.name == "carrier plate")
     said = part_sheet.notes(PartFacts(plate, printed.given))
     assert sum("heat-set insert M4 x 8.1 in holes of 5.6 mm" in note for note in said) == 2
+    assert sum("after printing these surfaces are cut to size" in note for note in said) == 1
 
 
 def test_half_grooves_are_made_before_their_seat_is_bored(machine, printed):

@@ -187,11 +187,16 @@ def notes(facts: PartFacts, *, exact: bool = True) -> list[str]:
 
 
 def _insert_notes(part: Part) -> list[str]:
-    """What goes into the threads of a part of plastic instead of a tap, or that nothing does."""
+    """What goes into the threads of a part of plastic instead of a tap, and what is cut in it."""
     plastic = printed_materials().get(part.material)
     if plastic is None:
         return []
-    return [f"Threads {one}." for one in with_inserts(part, plastic.least_wall)[1]]
+    how = "moulding" if plastic.process == "moulded" else "printing"
+    return [
+        *(f"Threads {one}." for one in with_inserts(part, plastic.least_wall)[1]),
+        f"Limits, frames and roughness hold when the part is done: after {how} these surfaces are "
+        "cut to size, and threads that no insert takes are cut.",
+    ]
 
 
 def _title(sheet: SheetDrawing, facts: PartFacts) -> None:
