@@ -25,6 +25,7 @@ from cqdd_design.actuator.transmission import USUAL_LEAST, Transmission, transmi
 from cqdd_design.catalog.motors import DRAG, Motor
 from cqdd_design.design import Design
 from cqdd_design.errors import DesignError, GeometryError
+from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine
 from cqdd_design.machine.cooling import cooled_network, two_nodes
 from cqdd_design.machine.thermal_parts import COPPER_HEAT, WINDING_SHARE
@@ -290,7 +291,8 @@ def _drive(
         if "motor.current_limit" not in design.assumed:
             raise DesignError(
                 f"motor.current_limit {limit:g} A never binds: {voltage:g} V drive no more than "
-                f"{most:.4g} A through {motor.resistance:g} ohm; lower it to {most:.3g} A, or "
+                f"{most:.4g} A through {motor.resistance:g} ohm; lower it to "
+                f"{rounded_down(most):g} A, or "
                 "raise the voltage."
             )
         limit = most

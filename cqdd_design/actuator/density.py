@@ -29,6 +29,9 @@ def density_torque(peak: float | None, required: float) -> tuple[float, str]:
     if peak is None:
         return required, f"{required:.4g} N*m required (what motor and driver give is not known)"
     if required < peak:
-        return required, f"{required:.4g} N*m required (motor and driver give {peak:.4g} N*m)"
+        return (
+            required,
+            f"{required:.4g} N*m required (motor and driver give {peak:.4g} N*m before friction)",
+        )
     beyond = f" ({required:.4g} N*m is required)" if math.isfinite(required) else ""
     return peak, f"{peak:.4g} N*m of motor and driver{beyond}"

@@ -159,6 +159,7 @@ class Motor:
     stated: tuple[str, ...] = ()
     stated_in: str = ""
     based_on: str = ""
+    rotor_mass: float | None = None
 
     @property
     def torque_constant(self) -> float | None:

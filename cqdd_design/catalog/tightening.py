@@ -6,7 +6,8 @@ load that takes all of itself from the clamp. Symbols are theirs::
     F_M = nu R_p A_0/sqrt(1 + 3 (3/2 d_2/d_0 (P/(pi d_2) + 1.155 mu))^2)       the preload
     M_A = F_M (0.16 P + 0.58 d_2 mu + mu D_Km/2)                               its torque
     F_Z = f_Z/(delta_S + delta_P)                                              what embedding takes
-    F_V = F_M/alpha_A - F_Z                                                    what is left at least
+    F_th = l_K (alpha_P - alpha_S) dT/(delta_S + delta_P)                      what cold takes
+    F_V = F_M/alpha_A - F_Z - F_th                                             what is left at least
     F_mG = tau_B pi d m/P (P/2 + (d - D_2) tan 30 deg)                         what strips the nut
 """
 
@@ -27,6 +28,8 @@ TIGHTENING_FACTOR = 1.6
 EMBEDDING_ENDS, EMBEDDING_FACE = 6e-6, 2e-6
 """f_Z of thread and head together, and of every face between clamped parts, m: ground and turned
 faces under a transverse load (VDI 2230, table 5.4/1)."""
+TIGHTENED = 20.0
+"""Temperature at which screws are tightened, deg C."""
 GRIP_FRICTION = 0.15
 """mu of clean dry faces between clamped parts (VDI 2230, table A6: 0.1 to 0.18, steel on
 aluminium)."""
@@ -53,6 +56,8 @@ class Clamping:
         Length that is clamped, and that of thread in thread, m.
     faces : int
         Between clamped parts.
+    coldest : float
+        To which what is held together cools once it is tightened at 20 deg C, deg C.
     """
 
     thread: Thread
@@ -64,6 +69,7 @@ class Clamping:
     grip: float
     engaged: float
     faces: int
+    coldest: float = TIGHTENED
 
     @property
     def preload(self) -> float:
@@ -117,11 +123,18 @@ class Clamping:
 
     @property
     def least_preload(self) -> float:
-        """What is left after scatter and embedding, N; 0 where embedding takes all."""
+        """What is left after scatter, embedding and cold, N; 0 where these take all.
+
+        Where what is clamped shrinks by more than the screw, as aluminium does. Materials whose
+        expansion is not known count as the screw's.
+        """
         tapped = self.screw if self.tapped is None else self.tapped
         soft = self._resilience(self.clamped.youngs_modulus, tapped.youngs_modulus)
-        lost = (EMBEDDING_ENDS + EMBEDDING_FACE * self.faces) / soft
-        return max(self.preload / TIGHTENING_FACTOR - lost, 0.0)
+        lost = EMBEDDING_ENDS + EMBEDDING_FACE * self.faces
+        steel, other = self.screw.expansion or 0.0, self.clamped.expansion
+        more = 0.0 if other is None else max(other - steel, 0.0)
+        lost += self.grip * more * max(TIGHTENED - self.coldest, 0.0)
+        return max(self.preload / TIGHTENING_FACTOR - lost / soft, 0.0)
 
     @property
     def held_preload(self) -> float | None:

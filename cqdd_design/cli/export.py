@@ -131,9 +131,11 @@ def _several(
         designs, arguments, folder, workers=workers, progress=out.counting("designs")
     )
     for one in found:
+        out.warn(*(f"{one.path}: {told}" for told in one.warnings))
         if one.error:
             out.warn(f"{one.path}: {one.error}")
         else:
             out.say(f"{one.path}: {len(one.files)} files")
-    out.document({"kinds": list(kinds), "designs": [one.to_dict() for one in found]})
+    document = {"kinds": list(kinds), "designs": [one.to_dict() for one in found]}
+    out.document(document | {"files": [file for one in found for file in one.files]})
     return next((one.exit_code for one in found if one.exit_code), 0)

@@ -12,6 +12,7 @@ import io
 import math
 import re
 from collections.abc import Iterator
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from typing import BinaryIO, NamedTuple, NoReturn
@@ -123,7 +124,7 @@ def read_duty(path: Path, columns: DutyColumns | None = None) -> DutyLog:
         text = _text(stream)
         head, delimiter, line = _headings(path, text)
         found = [_column(path, head, name, getattr(asked, name)) for name in _NAMES]
-        read = _numbers(path, text, delimiter, [one.place for one in found])
+        read = _numbers(path, text, delimiter, [one.place for one in found], len(head))
     if read is None:
         _refuse_first_wrong(path, line, delimiter, found, len(head))
     log = DutyLog(path.name, f"{stamp.hexdigest()} {asked}", line + 1, *_scaled(read, found))
@@ -148,7 +149,7 @@ def _headings(path: Path, text: io.TextIOWrapper) -> tuple[list[str], str, int]:
         if line.strip() and not line.startswith("#"):
             break
     if "\0" in line or "\ufffd" in line:
-        raise DesignError(f"{path} is not a text file in UTF-8; save the duty as CSV.")
+        raise DesignError(f"{path} is not a text file in UTF-8; save it as CSV in UTF-8.")
     delimiter = max(_DELIMITERS, key=line.count)
     cells = next(csv.reader([line], delimiter=delimiter))
     return [cell.strip() for cell in cells], delimiter, number
@@ -171,10 +172,13 @@ def _column(path: Path, head: list[str], quantity: str, wanted: str) -> _Column:
             fault = f"has no column '{wanted}' for {quantity}{did_you_mean(wanted, head)}"
         else:
             fault = f"has no column named {' or '.join(usual[:2])}"
+        if all(map(_is_number, head)):
+            raise DesignError(
+                f"{path} has no line of headings; put time [s],torque [N*m],speed [rad/s] first."
+            )
         raise DesignError(
-            f"{path} {fault}; it has {there}. Name the one that is meant, as in "
-            f'duty_columns = {{{quantity} = "{head[0][:40]}"}} or --duty-columns '
-            f'"{quantity}={head[0][:40]}".'
+            f"{path} {fault}; it has {there}. Name the one that is meant"
+            f"{_example(quantity, dimension, [head[k] for k in places] or head)}."
         )
     place = places[0]
     own = (_split if wanted else partial(_usual, quantity=quantity))(head[place])[1]
@@ -183,6 +187,26 @@ def _column(path: Path, head: list[str], quantity: str, wanted: str) -> _Column:
             f"{path}: column '{head[place]}' says {own}, and duty_columns says {unit}; keep one."
         )
     return _Column(quantity, place, head[place], _factor(path, head[place], unit or own, dimension))
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True
+
+
+def _example(quantity: str, dimension: Dimension, head: list[str]) -> str:
+    """How a column is named, by the first whose unit is of its dimension."""
+    for cell in head:
+        with suppress(DesignError):
+            parse_quantity(f"1 {_split(cell)[1]}", dimension)
+            return (
+                f', as in duty_columns = {{{quantity} = "{cell[:40]}"}} or --duty-columns '
+                f'"{quantity}={cell[:40]}"'
+            )
+    return f', with its unit, as in --duty-columns "{quantity}=NAME [{dimension.unit}]"'
 
 
 def _split(heading: str) -> tuple[str, str]:
@@ -234,7 +258,7 @@ class _Counted:
 
 
 def _numbers(
-    path: Path, text: io.TextIOWrapper, delimiter: str, places: list[int]
+    path: Path, text: io.TextIOWrapper, delimiter: str, places: list[int], width: int
 ) -> list[FloatArray] | None:
     """The columns, or None where a cell is no finite number or a line is blank or short."""
     lines = _Counted(text)
@@ -263,12 +287,22 @@ def _numbers(
             return None
         if len(found) != lines.rows - before or not np.all(np.isfinite(found)):
             return None
+        if any(_cells_beyond(line, delimiter, width) for line in piece):
+            return None
         pieces.append(found)
     if lines.blank_inside:
         return None
     if not pieces:
         raise DesignError(f"{path} has headings and no rows; a duty needs two or more.")
     return [np.concatenate([piece[:, k] for piece in pieces]) for k in range(len(places))]
+
+
+def _cells_beyond(line: str, delimiter: str, width: int) -> int:
+    """Cells of a line beyond those of the headings; an empty one at its end is none."""
+    if line.count(delimiter) < width:
+        return 0
+    cells = next(csv.reader([line], delimiter=delimiter))
+    return max(len(cells) - width - (not cells[-1].strip()), 0)
 
 
 def _refuse_first_wrong(
@@ -287,6 +321,11 @@ def _refuse_first_wrong(
                 cells = next(csv.reader([line], delimiter=delimiter))
             except (csv.Error, StopIteration):
                 raise DesignError(f"{where} cannot be read as CSV.") from None
+            if more := _cells_beyond(line, delimiter, width):
+                raise DesignError(
+                    f"{where} has {width + more} cells, and the headings {width}; take the others "
+                    "out, and where decimals are written with commas save with decimal points."
+                )
             for column in columns:
                 _refuse_cell(where, cells, column, width)
     raise DesignError(f"{path} cannot be read as numbers; save the duty as CSV.")
@@ -304,7 +343,8 @@ def _refuse_cell(where: str, cells: list[str], column: _Column, width: int) -> N
             f"{where}: a gap, '{column.heading}' is empty; fill it in, or take the line out."
         )
     try:
-        value = float(cell)
+        # Python takes 1_000, numpy does not.
+        value = float(cell.replace("_", "?"))
     except ValueError:
         raise DesignError(
             f"{where}: {shown(cell, 40)} in column '{column.heading}' is no number; write it with "

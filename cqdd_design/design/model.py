@@ -186,8 +186,8 @@ class Design(FrozenModel):
         design._assumed = tuple(
             key for key in design.dotted_keys() if key not in given and not key.startswith(below)
         )
-        if file != design.name and _is_part_of_file_names(file):
-            design._file = file
+        if file := _in_file_names(file):
+            design._file = "" if file == design.name else file
         return design
 
     @property
@@ -366,6 +366,12 @@ def _refuse_no_mapping(given: object, source: str) -> None:
             f"{source}: {shown(given)} is no mapping of keys to values, such as "
             '{"reducer.eccentricity": "1.2 mm"} or tables of a design file.'
         )
+
+
+def _in_file_names(name: str) -> str:
+    """A file's name with signs that not every system takes replaced; empty where that is none."""
+    kept = "".join("_" if c in '/\\:*?"<>|' or is_unprintable(c) else c for c in name)
+    return kept if _is_part_of_file_names(kept) else ""
 
 
 def _is_part_of_file_names(name: str) -> bool:

@@ -83,6 +83,7 @@ class MotorData(FrozenModel):
 
     name: FreeText = ""
     based_on: MotorName | None = None
+    kind: Literal["outrunner", "inrunner"] | None = None
     torque_constant: (
         Annotated[
             float,
@@ -298,6 +299,7 @@ class MotorData(FrozenModel):
                 told[f"line_{name}"] = doubled * found[name]
         if self.rotor_mass is not None and self.stator_mass is not None:
             told["mass"] = self.rotor_mass + self.stator_mass
+            told["rotor_mass"] = self.rotor_mass
         return told
 
 
@@ -438,13 +440,25 @@ def _name_in_catalogue(name: str) -> str:
 
 
 def not_inside(motor: MotorData | Motor) -> str:
-    """What is wrong with diameters that must lie inside one another; empty of sound ones."""
-    names = ("bore_diameter", "gap_diameter", "outer_diameter")
-    known = [(name, value) for name in names if (value := getattr(motor, name)) is not None]
-    for (inner, less), (outer, more) in itertools.pairwise(known):
-        if less >= more:
-            return (
-                f"{inner} {format_quantity(less, LENGTH)} is not inside {outer} "
-                f"{format_quantity(more, LENGTH)}; check both"
-            )
-    return ""
+    """What is wrong with sizes that must lie inside one another; empty of sound ones."""
+    inrunner = "inrunner" in (motor.kind or "")
+    outside = ("bore_diameter", "gap_diameter", "outer_diameter")
+    chains: list[tuple[str, ...]] = [("hollow_diameter", *outside[1:]) if inrunner else outside]
+    chains += [("stack_length", "length"), ("rotor_length", "length")]
+    for names in chains:
+        known = [(name, value) for name in names if (value := getattr(motor, name)) is not None]
+        for (inner, less), (outer, more) in itertools.pairwise(known):
+            if less > more or (less == more and len(names) > 2):
+                return (
+                    f"{inner} {format_quantity(less, LENGTH)} is not inside {outer} "
+                    f"{format_quantity(more, LENGTH)}; check both"
+                )
+    inner, outer = ("gap_diameter", "outer_diameter") if inrunner else outside[:2]
+    less, more, depth = (getattr(motor, name) for name in (inner, outer, "slot_depth"))
+    if less is None or more is None or depth is None or 2.0 * depth < more - less:
+        return ""
+    return (
+        f"slot_depth {format_quantity(depth, LENGTH)} does not fit between {inner} "
+        f"{format_quantity(less, LENGTH)} and {outer} {format_quantity(more, LENGTH)}, which leave "
+        f"{format_quantity(0.5 * (more - less), LENGTH)}; check them"
+    )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from typing import Any
 
 from cqdd_design.catalog.motors import DRAG, Motor, find_bare_motor
@@ -118,12 +119,15 @@ _NOTHING: dict[str, Any] = {
     for field in dataclasses.fields(Motor)
     if field.default is dataclasses.MISSING
 }
+_IRON = 7900.0
+"""Density of solid iron, kg/m^3, above that of magnets."""
 _UNKNOWN = Motor(**(_NOTHING | {"kind": "own", "torque_at": "motor"}))
 """A motor of which nothing is known."""
 
 
 def _refuse_heavy_rotor(motor: Motor) -> None:
-    """Refuse a rotor with more inertia than the whole motor would have as a thin ring."""
+    """Refuse a rotor with more inertia than the whole motor as a thin ring, or of solid iron."""
+    _refuse_dense_rotor(motor)
     if motor.rotor_inertia is None or motor.mass is None or motor.outer_diameter is None:
         return
     most = motor.mass * (0.5 * motor.outer_diameter) ** 2
@@ -132,4 +136,19 @@ def _refuse_heavy_rotor(motor: Motor) -> None:
             f"motor {motor.name}: rotor_inertia {motor.rotor_inertia:.4g} kg m^2 is more than "
             f"{motor.mass:g} kg within {1e3 * motor.outer_diameter:.4g} mm can have, {most:.3g} "
             "kg m^2; check both."
+        )
+
+
+def _refuse_dense_rotor(motor: Motor) -> None:
+    """Refuse an inrunner's rotor that its sizes have no room for."""
+    inner, outer, long = motor.hollow_diameter, motor.gap_diameter, motor.rotor_length
+    if not (motor.is_inrunner and inner and outer and long and motor.rotor_inertia):
+        return
+    # J = pi/32 rho l (D^4 - d^4)
+    most = math.pi / 32.0 * _IRON * long * (outer**4 - inner**4)
+    if motor.rotor_inertia > most:
+        raise DesignError(
+            f"motor {motor.name}: rotor_inertia {motor.rotor_inertia:.4g} kg m^2 is more than iron "
+            f"between {1e3 * inner:.4g} and {1e3 * outer:.4g} mm over {1e3 * long:.4g} mm has, "
+            f"{most:.3g} kg m^2; check hollow_diameter, gap_diameter and rotor_length too."
         )

@@ -91,6 +91,7 @@ def motor_template() -> str:
     notes = {
         "name": "yours; one of the catalogue takes what is left out from there",
         "based_on": "instead: a motor of the catalogue that gives what is left out",
+        "kind": "outrunner (rotor outside its stator) or inrunner",
         "convention": f"of torque_constant: {', '.join(CONVENTIONS)}",
         "measured_between": "line or phase (of a star): resistance and inductance",
     }
@@ -118,6 +119,7 @@ def _of_row(row: Motor) -> dict[str, Any]:
         "inductance": row.line_inductance,
         "measured_between": "line",
     }
+    values["kind"] = "inrunner" if row.is_inrunner else "outrunner"
     found: dict[str, Any] = {}
     for key, field in MotorData.model_fields.items():
         value = values.get(key, getattr(row, key, None))

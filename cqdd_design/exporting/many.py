@@ -17,6 +17,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from cqdd_design.errors import UsageError
+
 COMMAND = (sys.executable, "-m", "cqdd_design")
 
 
@@ -34,12 +36,15 @@ class DesignExport:
         ``path``, ``kind``, ``bytes``, ``sha256`` of every file; none of a design that failed.
     error : str
         Why it failed; empty where it did not.
+    warnings : tuple of str
+        As of an export of it alone.
     """
 
     path: Path
     exit_code: int
     files: tuple[dict[str, Any], ...]
     error: str
+    warnings: tuple[str, ...] = ()
 
     def to_dict(self) -> dict[str, object]:
         """Return the JSON form."""
@@ -48,6 +53,7 @@ class DesignExport:
             "exit_code": self.exit_code,
             "files": list(self.files),
             "error": self.error or None,
+            "warnings": list(self.warnings),
         }
 
 
@@ -80,7 +86,13 @@ def export_many(
     -------
     tuple of DesignExport
         In the order of `designs`, the failed ones among them.
+
+    Raises
+    ------
+    UsageError
+        When two designs would write to the same folder.
     """
+    _refuse_one_folder(designs)
     most = min(workers or os.cpu_count() or 1, len(designs))
     found: dict[int, DesignExport] = {}
     with ThreadPoolExecutor(most) as pool:
@@ -106,12 +118,25 @@ def _export_one(path: Path, arguments: Sequence[str], command: Sequence[str]) ->
     )
     code = process.returncode
     if code == 0:
-        return DesignExport(path, 0, tuple(json.loads(process.stdout)["files"]), "")
+        told = json.loads(process.stdout)
+        return DesignExport(path, 0, tuple(told["files"]), "", tuple(told["warnings"]))
     # The sentence comes last, after the progress.
     last = process.stderr.strip().rpartition("cqdd-design: ")[2] or "it said nothing"
     if code < 0:
         return DesignExport(path, 1, (), f"the process was ended by {_signal_name(-code)}: {last}")
     return DesignExport(path, code, (), last)
+
+
+def _refuse_one_folder(designs: Sequence[Path]) -> None:
+    """Refuse designs whose files would be called alike: one would replace the other's."""
+    seen: dict[str, Path] = {}
+    for path in designs:
+        other = seen.setdefault(path.stem.casefold(), path)
+        if other is not path:
+            raise UsageError(
+                f"{other} and {path} would both be exported as '{path.stem}'; give one another "
+                "file name, or export them one after the other with --out."
+            )
 
 
 def _place(folder: Path | None, path: Path) -> list[str]:

@@ -14,7 +14,7 @@ from cqdd_design.gearbox.cam_bearing import rolling_element
 from cqdd_design.gearbox.checks.allowables import STATIC_SAFETY
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
-from cqdd_design.gearbox.output_bearing import OutputLoad, dynamic_load, static_load
+from cqdd_design.gearbox.output_bearing import OutputLoad, dynamic_load, static_safety
 from cqdd_design.gearbox.pack_loads import PackLoads
 from cqdd_design.machine.machine import Machine
 from cqdd_design.machine.output_loads import output_loads
@@ -53,14 +53,10 @@ def bearing_for_loads(machine: Machine) -> ForLoads | None:
         return None
     fitting = [one.bearing for one in every if one.bearing.static_rating is not None]
     for row in fitting:
-        if _safety(row, peak) >= _SPARE * STATIC_SAFETY and _lasts(row, lasting, design):
+        if static_safety(row, peak) >= _SPARE * STATIC_SAFETY and _lasts(row, lasting, design):
             return ForLoads(row, bears=True)
-    most = max(fitting, key=lambda row: _safety(row, peak), default=None)
+    most = max(fitting, key=lambda row: static_safety(row, peak), default=None)
     return None if most is None else ForLoads(most, bears=False)
-
-
-def _safety(row: Bearing, load: OutputLoad) -> float:
-    return (row.static_rating or 0.0) / float(static_load(row, load).max())
 
 
 def _lasts(row: Bearing, load: OutputLoad, design: Design) -> bool:

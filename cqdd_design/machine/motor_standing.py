@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from cqdd_design.catalog.motors import Motor
 from cqdd_design.geometry.scale import largest_ring, ring_within_rotor, smallest_ring
 from cqdd_design.machine.machine import Machine
 
@@ -11,6 +12,8 @@ if TYPE_CHECKING:
     from cqdd_design.solids.layout import Layout
 
 _MM = 1e3
+_ON_OWN_SHAFT = {"open outrunner", "drone"}
+"""Kinds of the catalogue that turn in bearings of their own."""
 _ROUND_MOTOR = 1.6 + 1.0 + 2.0
 """Round a motor within a shaft: its can, the gap to the shaft, and the shaft's own wall, units."""
 
@@ -23,9 +26,23 @@ def motor_standing(machine: Machine) -> str:
     GeometryError
         When the machine cannot be laid out.
     """
-    layout, name = machine.layout, machine.motor.name
+    layout = machine.layout
     if layout.motor_end is None:
-        return f"{name} is not drawn: {layout.motor_missing}."
+        return f"{machine.motor.name} is not drawn: {layout.motor_missing}."
+    return _place(layout, machine.motor.name) + _taken_off(machine.motor)
+
+
+def _taken_off(motor: Motor) -> str:
+    """What of a motor that is sold on its own shaft is not used; empty of frameless ones."""
+    if motor.kind not in _ON_OWN_SHAFT:
+        return ""
+    return (
+        " It is sold on a shaft of its own: stator and ring of magnets are used; shaft, bearings "
+        "and bell are taken off."
+    )
+
+
+def _place(layout: Layout, name: str) -> str:
     if layout.inrunner is not None:
         return f"{name} stands behind the gearbox. {_not_inside(layout)} {_not_round(layout)}"
     bore, ring = layout.motor_row.bore_diameter or 0.0, 2.0 * layout.pack.ring_radius

@@ -89,8 +89,8 @@ def seated_states(
     coldest = design.environment.coldest
     rings = [(REFERENCE, REFERENCE), (coldest, coldest)]
     if warm is not None:
-        settled = by_node(warm.reached)
-        rings.append((settled["carrier"], settled["housing"]))
+        warmed = map(by_node, warm.states)
+        rings += [(state["carrier"], state["housing"]) for state in warmed]
     return tuple(
         SeatedState(
             inner,

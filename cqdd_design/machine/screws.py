@@ -134,7 +134,12 @@ def screw_joints(machine: Machine) -> tuple[ScrewJoint, ...]:
         _columns(machine),
         _motor_cover(machine),
     ]
-    return tuple(one for one in every if one is not None)
+    coldest = machine.design.environment.coldest
+    return tuple(
+        replace(one, clamping=replace(one.clamping, coldest=coldest))
+        for one in every
+        if one is not None
+    )
 
 
 def _unloaded(screws: Tightened | None) -> ScrewJoint | None:

@@ -8,6 +8,7 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
+from cqdd_design.catalog.lubricants import find_lubricant
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.catalog.motors import COPPER_REFERENCE
 from cqdd_design.design.duty_log import DutyLog
@@ -46,56 +47,25 @@ from cqdd_design.machine.settling import (
     within_reach,
 )
 from cqdd_design.machine.warm_clearance import WarmClearance, warm_clearance
+from cqdd_design.machine.warm_cycle import WarmCycle
 from cqdd_design.results import Check
 
 _TIMES = 48
 _LEAST_TIME, _SETTLED = 5.0, 6.0
 """First time of a history, s, and its last over the slowest time constant."""
-_SHOWN = 200
-"""Times of a duty's cycle in JSON."""
 _TRIED = (1.5, 3.0, 6.0)
 """Of what a clearance lacks at least, what is tried as a remedy."""
 _LOOKS, _FEW_LOOKS = 6, 3
 """States on the way from the coldest start at which clearances are looked at; with rigid bodies."""
 
 
+_GREASED: tuple[Node, ...] = ("ring", "disc", "shaft", "carrier")
+_ALIKE = 0.5
+"""K by which a state has to differ from another to be looked at."""
+_SAME_BACKLASH = 0.99
+"""Share of the backlash as drawn that warmth has to leave less of to be drawn with part errors."""
 _NEAR_ENOUGH = 2e-2
 """Of a limit of temperature, how much may be left of it where cooling is looked for."""
-
-
-@dataclass(frozen=True, eq=False)
-class WarmCycle:
-    """Temperatures over one cycle of a duty, the same in every one.
-
-    Attributes
-    ----------
-    time : array (K,)
-        From the beginning of the cycle, s.
-    temperature : array (K, N)
-        At these times, deg C.
-    """
-
-    time: FloatArray
-    temperature: FloatArray
-
-    @property
-    def winding(self) -> tuple[float, float]:
-        """Greatest temperature of the winding, deg C, and when it has it, s."""
-        values = self.temperature[:, NODES.index("winding")]
-        hottest = int(values.argmax())
-        return float(values[hottest]), float(self.time[hottest])
-
-    def to_dict(self) -> dict[str, object]:
-        """Return the JSON form, some hundred times of the cycle and the hottest."""
-        most, when = self.winding
-        some = np.unique(np.linspace(0, len(self.time) - 1, _SHOWN).round().astype(int))
-        return {
-            "winding_peak_degC": most,
-            "winding_peak_at_s": when,
-            "winding_least_degC": float(self.temperature[:, NODES.index("winding")].min()),
-            "time_s": self.time[some].tolist(),
-            "cycle_degC": {n: self.temperature[some, i].tolist() for i, n in enumerate(NODES)},
-        }
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,13 +120,26 @@ class MachineTemperatures:
         return within_reach(self.steady, self.network.ambient)
 
     @cached_property
+    def states(self) -> tuple[FloatArray, ...]:
+        """`reached`, and the moments of a duty's cycle at which parts are hottest or most unlike.
+
+        Moments within half a kelvin of one that is there already say nothing new.
+        """
+        found = [self.reached]
+        for row in () if self.cycle is None else self.cycle.extremes:
+            inside = np.clip(row, COLDEST, HOTTEST)
+            if all(np.abs(inside - one).max() > _ALIKE for one in found):
+                found.append(inside)
+        return tuple(found)
+
+    @cached_property
     def hot(self) -> WarmClearance:
         """Clearances at `reached`."""
         return warm_clearance(self.machine, gearbox_parts(self.reached))
 
     @cached_property
     def on_the_way(self) -> tuple[WarmClearance, ...]:
-        """Clearances at the coldest start, on the way from there, and at `reached`."""
+        """Clearances at the coldest start, on the way from there, over a cycle, and settled."""
         coldest = self.machine.design.environment.coldest
         times = self.times[:: _TIMES // (_FEW_LOOKS if self.machine.stiff else _LOOKS)]
         warming = self.network.history(self.duty.heat, times, coldest)
@@ -164,6 +147,7 @@ class MachineTemperatures:
         return (
             warm_clearance(self.machine, PartTemperatures.even(coldest)),
             *(warm_clearance(self.machine, gearbox_parts(one)) for one in inside),
+            *(warm_clearance(self.machine, gearbox_parts(one)) for one in self.states[1:]),
             self.hot,
         )
 
@@ -194,6 +178,15 @@ class MachineTemperatures:
     def tightest(self) -> Tightness:
         """The greatest overlap that warmth adds, and where."""
         return max(_added_overlaps(self), key=lambda one: one.overlap)
+
+    @cached_property
+    def least_free(self) -> PartTemperatures:
+        """The state of least backlash, in whole kelvins; as drawn where none has less than that."""
+        tightest = min(self.on_the_way, key=lambda one: one.free.mean)
+        if tightest.free.mean > _SAME_BACKLASH * warm_clearance(self.machine, AS_DRAWN).free.mean:
+            return AS_DRAWN
+        rounded = {name: float(round(value)) for name, value in vars(tightest.temperatures).items()}
+        return PartTemperatures(**rounded)
 
     @property
     def settling_time(self) -> float:
@@ -340,23 +333,25 @@ def enough_cooling(found: MachineTemperatures) -> float:
 
 def _parts(found: MachineTemperatures) -> tuple[WarmPart, ...]:
     """Those that have a limit, at the temperatures that are found."""
-    at = by_node(found.steady)
-    at["pin"] = at["carrier"]
+    at = {node: found.hottest(node) for node in NODES}
+    bears_at = at | {"pin": at["carrier"]}
     housing = find_material(found.machine.design.housing.material).service_limit
-    greased = max(("ring", "disc", "shaft", "carrier"), key=at.__getitem__)
+    greased = max(_GREASED, key=at.__getitem__)
+    lubricant = find_lubricant(found.machine.design.reducer.friction.lubricant)
+    grease = min(GREASE_MOST, lubricant.hottest)
     bears = {
         part: find_material(name).service_limit
         for part, name in part_materials(found.machine.design).items()
     }
     return (
         WarmPart("winding", found.hottest("winding"), found.machine.motor.winding_most),
-        WarmPart(f"grease at the {greased}", at[greased], GREASE_MOST),
+        WarmPart(f"grease at the {greased}", at[greased], grease),
         WarmPart("housing", at["housing"], HOUSING_MOST if housing is None else housing),
         # Of the greased parts those that give way before their grease does.
         *(
-            WarmPart(part, at[part], most)
+            WarmPart(part, bears_at[part], most)
             for part, most in bears.items()
-            if most is not None and most < GREASE_MOST
+            if most is not None and most < grease
         ),
     )
 
@@ -413,6 +408,11 @@ def _added_overlaps(found: MachineTemperatures) -> tuple[Tightness, ...]:
 def _in_words(parts: PartTemperatures) -> str:
     told = ", ".join(f"{name} {value:.0f}" for name, value in vars(parts).items())
     return f"{told} degC"
+
+
+def known_temperatures(machine: Machine) -> MachineTemperatures | None:
+    """Temperatures at the duty, where they are known."""
+    return judged_temperatures(machine)[0]
 
 
 @lru_cache(maxsize=6)

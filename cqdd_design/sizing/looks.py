@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +26,7 @@ from cqdd_design.machine.temperatures import (
     MachineTemperatures,
     heat_checks,
     judged_temperatures,
+    known_temperatures,
 )
 from cqdd_design.results import Check
 from cqdd_design.sizing.able import CONTINUOUS, PEAK, cooler, what_it_can
@@ -35,7 +37,15 @@ from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.shafts import stronger_shaft
 from cqdd_design.sizing.spaces import FITS, Found, spaces
 from cqdd_design.solids.motor_rules import undrawn_sizes
-from cqdd_design.verdict.drawn import Allowed, Drawn, drawn_gearboxes, good_gearboxes, used
+from cqdd_design.verdict.drawn import (
+    SOFT,
+    TIGHT,
+    Allowed,
+    Drawn,
+    drawn_gearboxes,
+    good_gearboxes,
+    used,
+)
 from cqdd_design.verdict.joint_lines import bell_line
 from cqdd_design.verdict.motor import held_up_to, motor_lines
 
@@ -253,9 +263,10 @@ def last_look(hunt: Hunt, machine: Machine) -> float | None:
     As `closer_look`, which only guesses how they yield; a few first, as these tell most of what is
     missing. The verdict goes on from the others.
     """
+    warm = partial(known_temperatures, machine)
     for samples in (_TRIAL_SAMPLES, BLOCK):
         try:
-            drawn = drawn_gearboxes(machine, samples, sensitivity=False)
+            drawn = drawn_gearboxes(machine, samples, sensitivity=False, warm=warm)
             lines = yielding_checks(machine)
         except ContactError:
             return _LEAST_STEP
@@ -284,24 +295,23 @@ def _drawn(hunt: Hunt, machine: Machine) -> Drawn:
     as a share, is alike for designs of one hunt with discs of about the same thickness and for
     about the same torques.
     """
+    warm = partial(known_temperatures, replace(machine, stiff=True))
     new = hunt.yielding is None or not _yield_alike(hunt.yielding_at, _yielding_at(machine))
     with ThreadPoolExecutor(1) as beside:
         if new:
             # They are asked for next, and rigid gearboxes leave Python to them.
             beside.submit(getattr, machine, "bodies")
-        rigid = drawn_gearboxes(machine, _TRIAL_SAMPLES, sensitivity=False, rigid=True)
-    hunt.rigid = machine, tuple(_high(one) for one in rigid)
+        rigid = drawn_gearboxes(machine, _TRIAL_SAMPLES, sensitivity=False, rigid=True, warm=warm)
+    hunt.rigid = machine, tuple(map(_high, rigid[:2]))
     if new:
-        found = drawn_gearboxes(machine, _TRIAL_SAMPLES, sensitivity=False)
+        found = drawn_gearboxes(machine, _TRIAL_SAMPLES, sensitivity=False, warm=warm)
         _calibrate(hunt, machine, found)
         return found
     assert hunt.yielding is not None
-    return Drawn(
-        *(
-            replace(one, values=one.values * share)
-            for one, share in zip(rigid, hunt.yielding, strict=True)
-        )
-    )
+    # Warm gearboxes yield as those do that are under the same torque.
+    shares = (*hunt.yielding, hunt.yielding[0])
+    both = zip(rigid.every, shares, strict=False)
+    return Drawn(*(replace(one, values=one.values * share) for one, share in both))
 
 
 def _yielding_at(machine: Machine) -> tuple[float, ...]:
@@ -322,7 +332,7 @@ def _calibrate(hunt: Hunt, machine: Machine, drawn: Drawn) -> None:
     hunt.yielding_at = _yielding_at(machine)
     hunt.yielding = tuple(
         _high(one) / np.where(other, other, 1.0)
-        for one, other in zip(drawn, hunt.rigid[1], strict=True)
+        for one, other in zip(drawn[:2], hunt.rigid[1], strict=True)
     )
 
 
@@ -362,20 +372,22 @@ def read_spread(
         return None
     # No clearance makes a gearbox tighter or stiffer, but a stronger one is stiffer.
     most = (1.0 - share) * count
-    slack, soft = (fails.get(name, 0) > most for name in ("backlash", "stiffness"))
+    slack = fails.get("backlash", 0) > most
+    soft = max(fails.get("stiffness", 0), fails.get(SOFT, 0)) > most
     loose = slack or soft
-    jams = max(one.lost for one in drawn)
+    jams = max(one.lost for one in drawn.every)
+    binds = max(fails["bind"], fails.get(TIGHT, 0))
     # Half of what may fail, all of it where backlash matters: clearance would cost that.
     tight = machine.design.requirements.backlash is not None or hunt.goal == "backlash"
     may = (1.0 if tight else 0.5) * (1.0 - share) * count
-    if not (slack or (soft and not hunt.may_be_sturdier)) and fails["bind"] + jams > may:
+    if not (slack or (soft and not hunt.may_be_sturdier)) and binds + jams > may:
         return _LEAST_STEP
     # What may fail is shared among the lines that do.
     quantile = 1.0 - (1.0 - share) / max(sum(1 for number in fails.values() if number), 1)
     ratios = used(allowed, drawn)
     over = _over(ratios, quantile)
     overloaded = sum(int(np.sum(ratio > 1.0)) for ratio in ratios.values())
-    if overloaded and overloaded >= fails["bind"] + jams and max(over.values()) <= 1.0:
+    if overloaded and overloaded >= binds + jams and max(over.values()) <= 1.0:
         # Of few gearboxes the one that is overloaded is hardly in the quantile.
         over = {check: float(ratio.max()) for check, ratio in ratios.items()}
     short = any(ratio > 1.0 for ratio in over.values())
@@ -383,7 +395,7 @@ def read_spread(
         _ask_extra(hunt, machine, over)
         hunt.borne = _borne(over)
         hunt.nearly[machine.design.reducer.cam_bearing.designation] = min(hunt.borne)
-    wider = fails.get("backlash", 0) > fails["bind"] + jams and _asks_for_a_wider_ring(
+    wider = fails.get("backlash", 0) > binds + jams and _asks_for_a_wider_ring(
         hunt, machine, drawn, quantile
     )
     if short or wider:

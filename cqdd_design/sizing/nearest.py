@@ -17,7 +17,7 @@ from typing import NamedTuple
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Requirements
 from cqdd_design.environment import give_memory_back
-from cqdd_design.errors import InfeasibleError
+from cqdd_design.errors import DesignError, InfeasibleError
 from cqdd_design.gearbox.checks.guide import CHECK_GUIDE
 from cqdd_design.geometry.scale import largest_ring
 from cqdd_design.sizing.able import CONTINUOUS, PEAK, TooHotError, first_guess
@@ -28,6 +28,7 @@ from cqdd_design.sizing.infeasible import WORDS, SizingInfeasibleError, listed
 from cqdd_design.sizing.kinds import ranked
 from cqdd_design.sizing.looser import looser_figures
 from cqdd_design.sizing.motor_reach import PEAK_LINE, MotorShortError
+from cqdd_design.sizing.motors import lacking
 from cqdd_design.sizing.ratios import other_ratio
 from cqdd_design.sizing.refusals import FIGURES
 from cqdd_design.sizing.slower import less_speed
@@ -125,6 +126,7 @@ def size_or_nearest(
     That it is refused, and why, is told as a whole sentence before those are looked for.
     """
     hunt = new_hunt(requirements, progress, motor, ambient, goal)
+    _refuse_unknown(hunt.motor_row)
     asked = hunt.requirements
     try:
         return searched(hunt, requirements)
@@ -132,6 +134,18 @@ def size_or_nearest(
         _let_go(refusal)
         began = replace(hunt, requirements=asked, goal=goal)
         raise _with_ways(refusal, _without_designs(began)) from refusal
+
+
+def _refuse_unknown(motor: Motor) -> None:
+    """Refuse a motor of which too little is known for any verdict to be yes, before a search."""
+    lacks = lacking(motor)
+    if lacks:
+        raise DesignError(
+            f"no design with '{motor.name}' can be shown to meet anything: not known of it are "
+            f"{listed([*lacks])}. Give them in [motor] or with --motor-file (`cqdd-design new "
+            "motor` writes one), or take another motor (--motor any); --quick searches by closed "
+            "forms, which is no verdict."
+        )
 
 
 def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleError:

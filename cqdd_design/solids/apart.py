@@ -122,7 +122,8 @@ def _bonds(things: Sequence[_Thing]) -> _Bonds:
     magnet have been set from the face that it closes.
     """
     bonds: _Bonds = {}
-    belled = any(one.station.part.name == "rotor bell" for one in things)
+    turned = {"rotor bell", "rotor hub"}
+    belled = any(one.station.part.name in turned for one in things)
     for host in things:
         if host.station.body.kind == "disc" and host.station.part.source == "make":
             pressed = host.station.name.replace("disc", "cam bearing")

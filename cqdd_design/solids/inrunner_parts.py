@@ -11,6 +11,7 @@ from cqdd_design.solids.inertia import HUB
 from cqdd_design.solids.layout import Layout
 from cqdd_design.solids.motor_layout import InrunnerLayout
 from cqdd_design.solids.motor_parts import (
+    LEAST_STATOR,
     encoder_parts,
     magnetic_circuit,
     motor_cover_part,
@@ -22,7 +23,7 @@ from cqdd_design.solids.part import Colour, Part
 from cqdd_design.solids.poses import SHAFT
 
 _ROTOR_SHARE = 0.3
-"""Of a motor's mass: a rotor of unknown inertia; the most that one of known inertia weighs."""
+"""Of a motor's mass: a rotor of unknown inertia."""
 _HUB: Colour = (0.62, 0.65, 0.70)
 
 
@@ -61,6 +62,6 @@ def _rotor_mass(row: Motor, motor: InrunnerLayout) -> float:
     """Of magnets and back iron, kg: what gives them the catalogue's inertia."""
     whole = row.mass or 0.0
     if row.rotor_inertia is None:
-        return _ROTOR_SHARE * whole
+        return row.rotor_mass or _ROTOR_SHARE * whole
     square = 0.5 * (motor.rotor_inner**2 + motor.rotor_outer**2)
-    return min(row.rotor_inertia / square, _ROTOR_SHARE * whole)
+    return min(row.rotor_inertia / square, (1.0 - LEAST_STATOR) * whole)

@@ -43,7 +43,7 @@ MAGNET_MATERIAL = "NdFeB N42"
 ENCODER_MAGNET_MATERIAL = "NdFeB N35"
 BOARD_MATERIAL = "FR-4 glass epoxy"
 
-_ROTOR_SHARE, _LEAST_STATOR = 0.4, 0.05
+_ROTOR_SHARE, LEAST_STATOR = 0.4, 0.05
 """Of a motor's mass: a rotor of unknown inertia, and the least that is left to the stator."""
 
 _STATOR: Colour = (0.72, 0.45, 0.20)
@@ -181,13 +181,14 @@ def _motor_masses(row: Motor, motor: MotorLayout, bell: MassProperties) -> _Mass
     own = float(bell.inertia[2, 2])
     square = 0.5 * (motor.rotor_inner**2 + motor.rotor_outer**2)
     if row.rotor_inertia is None:
-        part = min(1.0, 0.5 * _ROTOR_SHARE * whole / bell.mass)
-        magnets = _ROTOR_SHARE * whole - part * bell.mass
+        rotor = row.rotor_mass or _ROTOR_SHARE * whole
+        part = min(1.0, 0.5 * rotor / bell.mass)
+        magnets = rotor - part * bell.mass
     else:
         part = min(1.0, 0.5 * row.rotor_inertia / own)
         magnets = (row.rotor_inertia - part * own) / square
     carried = part * bell.mass
-    stator = max(whole - magnets - carried, _LEAST_STATOR * whole)
+    stator = max(whole - magnets - carried, LEAST_STATOR * whole)
     return _Masses(stator, magnets, carried if part < 1.0 else None)
 
 

@@ -54,7 +54,7 @@ _LIGHTENING = 6
 _BELL_METAL = "7075-T6"
 _HOT = 120.0
 """At which the bond of the bell still holds the motor's torque, deg C: what grease bears."""
-_MOST_HUB = 2.0
+MOST_HUB = 2.0
 """Length of a bonded hub over its diameter: beyond, only its ends carry."""
 _LEAST_WALL = 0.5e-3
 """Inside the threads of the cover's ears, m."""
@@ -121,6 +121,8 @@ def drawn_motor(motor: Motor) -> tuple[Motor | None, str]:
             else (f"{last} of {motor.name} is")
         )
         keys = ", ".join(field for field, _ in lacking)
+        if motor.kind == "own":
+            keys += ', or kind = "inrunner" where its rotor turns inside'
         return None, f"the {named} not known (state {keys} in [motor] or with --motor-file)"
     return motor, ""
 
@@ -180,11 +182,11 @@ def bell_material(design: Design) -> str:
 
 
 def hub_length(torque: float, diameter: float) -> float:
-    """Length of a bonded hub, m: what holds the torque hot, up to `_MOST_HUB` diameters."""
+    """Length of a bonded hub, m: what holds the torque hot, up to `MOST_HUB` diameters."""
     compound = ROTOR_COMPOUND
     lasting = compound.strength * compound.metal_share * compound.share_at(_HOT) / SAFETY
     needed = length_needed(torque, diameter, lasting)
-    return min(math.ceil(needed * 2e3) / 2e3, _MOST_HUB * diameter)
+    return min(math.ceil(needed * 2e3) / 2e3, MOST_HUB * diameter)
 
 
 def _most_holes(hub: float, rim: float, unit: float) -> WebHoles:

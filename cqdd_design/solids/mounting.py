@@ -77,9 +77,10 @@ def cover_thread(design: Design, thread: float, count: int, grip: float) -> floa
     force += asked.external_radial or 0.0
     along = (asked.external_axial or 0.0) + 2.0 * (asked.external_moment or 0.0) / ring
     larger = [mm * 1e-3 for mm in _THREADS if mm * 1e-3 > thread + 1e-9]
+    coldest = design.environment.coldest
 
     def holds(size: float) -> bool:
-        left = _clamping(size, grip, metal).least_preload
+        left = replace(_clamping(size, grip, metal), coldest=coldest).least_preload
         return (count * left - along) * GRIP_FRICTION >= _COVER_RESERVE * force
 
     return next((size for size in (thread, *larger[:_LARGER]) if holds(size)), thread)
@@ -93,6 +94,7 @@ def mounting_thread(
     grip: float,
     engaged: float,
     metal: Material,
+    coldest: float,
 ) -> float:
     """The least thread (m) that holds by friction, from `least` (m) to twice that; else the latter.
 
@@ -102,11 +104,14 @@ def mounting_thread(
         Of the circle, m.
     grip, engaged : float
         Of `clamping`, m.
+    coldest : float
+        That it has to hold at, deg C.
     """
     across, along = forces(asked, count, radius)
     sizes = [mm * 1e-3 for mm in _THREADS if least - 1e-9 <= mm * 1e-3 <= 2.0 * least + 1e-9]
     for size in sizes:
-        held = (clamping(size, grip, engaged, metal).least_preload - along) * GRIP_FRICTION
+        cold = replace(clamping(size, grip, engaged, metal), coldest=coldest)
+        held = (cold.least_preload - along) * GRIP_FRICTION
         if held >= _RESERVE * across:
             return size
     return sizes[-1]

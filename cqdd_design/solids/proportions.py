@@ -364,6 +364,7 @@ def _housing(
         cover_flange_top - face,
         face - flange_bottom,
         find_material(design.housing.material),
+        design.environment.coldest,
     )
     # Larger ones leave a wall and the ring's dowels room.
     bolt_circle = max(bolt_circle, pack.ring_radius + 0.55 * mount + 1.85 * unit)

@@ -21,6 +21,7 @@ Quantity: TypeAlias = "str | pint.Quantity[Any]"
 """A number with its unit, as calls take it: a unit string, or a quantity of any pint registry."""
 
 _NUMBER = re.compile(r"[+-]?(?:\d+(?:_\d+)*\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
+_DECIMAL_COMMA = re.compile(r"([+-]?\d+),(?!\d{3}\b)(\d+)")
 #: The longest number and unit that is read; a float has 17 digits that count.
 _LONGEST_TEXT = 100
 
@@ -169,6 +170,8 @@ def parse_quantity(text: str, dimension: Dimension) -> float:
             f"'{kept}...' is too long for a {what}; a {dimension.name} is written like "
             f"{dimension.example()}"
         )
+    if comma := _DECIMAL_COMMA.match(text):
+        raise DesignError(f"'{text[:60]}' has a decimal comma; write {comma[1]}.{comma[2]}")
     number = float(match[0])
     unit = _SPELLINGS.get(unit, unit)
     factor = dict(dimension.common).get(unit)

@@ -154,7 +154,7 @@ def _inertia(evidence: Evidence) -> Iterator[Check]:
     except GeometryError as error:
         yield build_check(name, None, wanted, error.message, "see why nothing is drawn")
         return
-    known = found.rotor_drawn or found.rotor_inertia
+    known = found.rotor_inertia is not None
     rotor = f"of '{machine.motor.name}' no rotor inertia is known"
     light = light_rotor(machine.motor)
     yield build_check(
@@ -212,12 +212,16 @@ def _stiffness(evidence: Evidence) -> Iterator[Check]:
         yield build_check("STIFFNESS", None, limit, why, "see why none could be drawn")
         return
     found = drawn.statistics()["stiffness_Nm_per_arcmin"]
+    value, warm = float(found["p5"]), ""
+    if evidence.drawn is not None and evidence.drawn.warm is not None:
+        softest = float(evidence.drawn.warm.statistics()["stiffness_Nm_per_arcmin"]["p5"])
+        value, warm = min(value, softest), f"; {softest:.4g} at least clearance"
     yield build_check(
         "STIFFNESS",
-        float(found["p5"]),
+        value,
         limit,
         f"{found['p5']:.4g} N*m/arcmin, {found['mean']:.4g} in the mean, at "
-        f"{drawn.ensemble.torque:g} N*m",
+        f"{drawn.ensemble.torque:g} N*m{warm}",
         "take more or thicker output_pins where they have room, or size it for more peak_torque: a "
         "stronger gearbox is stiffer",
     )

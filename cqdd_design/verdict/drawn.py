@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import functools
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -11,33 +12,54 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from cqdd_design.errors import DesignError
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.state import build_check
+from cqdd_design.gearbox.heat.expansion import AS_DRAWN
 from cqdd_design.gearbox.tolerance.ensemble import make_ensemble
 from cqdd_design.gearbox.tolerance.evaluate import LOADS, PER_TOOTH, RANKED
 from cqdd_design.gearbox.tolerance.remembered import work_remembered
 from cqdd_design.gearbox.tolerance.run import ToleranceResult, run_ensemble
 from cqdd_design.machine import Machine
 from cqdd_design.machine.capacity import LoadedContacts
+from cqdd_design.machine.temperatures import MachineTemperatures
 from cqdd_design.results import Check
 
 _ARCMIN = math.degrees(1.0) * 60.0
+_LEAST = " at least clearance"
+TIGHT, SOFT = f"bind{_LEAST}", f"stiffness{_LEAST}"
+"""What gearboxes fail by in the state that leaves them least."""
 _RING = ("CONTACT-RING-PEAK", "CONTACT-RING-CONTINUOUS")
 _CAM = ("BEARING-STATIC", "BEARING-LIFE")
 
 
 class Drawn(NamedTuple):
-    """The same toleranced gearboxes over a whole output turn, under two torques."""
+    """The same toleranced gearboxes over a whole output turn, under two torques, and warm."""
 
     continuous: ToleranceResult
     peak: ToleranceResult
     """The greatest loads alone."""
+    warm: ToleranceResult | None = None
+    """At the continuous torque in the state that leaves least clearance; None where warmth and
+    cold take none, or temperatures are not known."""
+
+    @property
+    def every(self) -> tuple[ToleranceResult, ...]:
+        """Those that there are."""
+        return tuple(one for one in self if one is not None)
 
 
 def drawn_gearboxes(
-    machine: Machine, samples: int, *, sensitivity: bool, rigid: bool = False
+    machine: Machine,
+    samples: int,
+    *,
+    sensitivity: bool,
+    rigid: bool = False,
+    warm: Callable[[], MachineTemperatures | None] = lambda: None,
 ) -> Drawn:
     """Toleranced gearboxes at the continuous torque, or what stands for the duty, and at the peak.
+
+    Where warmth or a cold start take clearance, in that state too.
 
     Parameters
     ----------
@@ -48,6 +70,8 @@ def drawn_gearboxes(
         by `RANKED` alone.
     rigid : bool
         Whether discs and ring do not yield, for a look that has to be quick.
+    warm : callable
+        How warm the parts get, asked for last.
 
     Raises
     ------
@@ -74,10 +98,25 @@ def drawn_gearboxes(
         finally:
             # What is wrong at the peak is told first.
             found_at_peak = peaks.result()
-    found = Drawn(steady, found_at_peak)
-    if any(one.interrupted for one in found):
+    found = Drawn(steady, found_at_peak, _warm(machine, samples, rigid, warm()))
+    if any(one.interrupted for one in found.every):
         raise KeyboardInterrupt
     return found
+
+
+def _warm(
+    machine: Machine, samples: int, rigid: bool, known: MachineTemperatures | None
+) -> ToleranceResult | None:
+    """The gearboxes where they have least clearance."""
+    try:
+        parts = AS_DRAWN if known is None else known.least_free
+    except DesignError:
+        # How some part grows is not known, which THERMAL-CLEARANCE says.
+        return None
+    if parts == AS_DRAWN:
+        return None
+    tight = make_ensemble(machine.design, temperatures=parts, rigid=rigid)
+    return run_ensemble(tight, samples, mapper=work_remembered, sensitivity=False)
 
 
 @dataclass(frozen=True)
@@ -159,13 +198,34 @@ def good_gearboxes(
     if asked.stiffness is not None:
         soft = lasts["stiffness_Nm_per_arcmin"] < asked.stiffness / _ARCMIN
         fails["stiffness"] = (drawn.continuous, soft)
+        if drawn.warm is not None:
+            soft = drawn.warm.columns["stiffness_Nm_per_arcmin"] < asked.stiffness / _ARCMIN
+            fails[SOFT] = (drawn.warm, soft)
+    if drawn.warm is not None:
+        fails[TIGHT] = (drawn.warm, drawn.warm.columns["unloaded_torque_Nm"] > most)
     for check, share in used(allowed, drawn).items():
         at_peak = check in {"CONTACT-RING-PEAK", "BEARING-STATIC"}
         fails[_WORDS[check]] = (drawn.peak if at_peak else drawn.continuous, share > 1.0)
-    good = np.intersect1d(drawn.continuous.numbers, drawn.peak.numbers)
+    good = functools.reduce(np.intersect1d, [one.numbers for one in drawn.every])
     for ensemble, beyond in fails.values():
         good = np.setdiff1d(good, ensemble.numbers[beyond])
     return good, {name: int(beyond.sum()) for name, (_, beyond) in fails.items()}
+
+
+def drawn_cam_hours(machine: Machine, drawn: Drawn | None, lines: Sequence[Check]) -> float | None:
+    """Hours that the cam bearings of the share that has to be good (`yield_share`) last at least.
+
+    By their greatest load over the turn against that of perfect parts; None where that is not
+    known.
+    """
+    allowed = (
+        Allowed.of(machine, lines) if drawn is not None and len(drawn.continuous.values) else None
+    )
+    if drawn is None or allowed is None:
+        return None
+    load = used(allowed, drawn)["BEARING-LIFE"]
+    worst = float(np.quantile(load, machine.design.requirements.yield_share))
+    return float(machine.life.required_hours / worst**machine.analysis.cam_bearing.exponent)
 
 
 def yield_line(machine: Machine, drawn: Drawn | None, why: str, lines: Sequence[Check]) -> Check:
@@ -174,14 +234,23 @@ def yield_line(machine: Machine, drawn: Drawn | None, why: str, lines: Sequence[
     cure = "see what is not known of pressure and cam load"
     if drawn is None:
         return build_check("YIELD", None, limit, why, "see why none could be drawn")
-    solved = min(len(one.values) for one in drawn)
+    solved = min(len(one.values) for one in drawn.every)
     found = good_gearboxes(machine, drawn, lines) if solved else None
     if found is None:
         return build_check("YIELD", None, limit, "limits of drawn gearboxes are not known", cure)
     good, fails = found
     count = len(drawn.continuous.values) + drawn.continuous.lost
     told = [f"{number} {name}" for name, number in fails.items() if number]
-    told += [f"{one.lost} jam at {one.ensemble.torque:g} N*m" for one in drawn if one.lost]
+    told += [
+        f"{one.lost} jam at {one.ensemble.torque:g} N*m" + (_LEAST if one is drawn.warm else "")
+        for one in drawn.every
+        if one.lost
+    ]
+    if drawn.warm is not None:
+        parts = drawn.warm.ensemble.temperatures
+        told.append(
+            f"least clearance with discs at {parts.disc:g} and carrier at {parts.carrier:g} degC"
+        )
     worst = max(fails, key=lambda name: fails[name])
     return build_check(
         "YIELD",

@@ -108,7 +108,7 @@ def gather(
         held = beside.submit(lambda: _lasting(machine, heat.result(), motor.result()[0]))
         progress("drawing toleranced gearboxes, and judging heat and motor")
         try:
-            drawn, undrawn = _drawn(machine, samples, sensitivity)
+            drawn, undrawn = _drawn(machine, samples, sensitivity, lambda: heat.result()[0])
         except BaseException:
             # Ctrl-C: what has not begun is not waited for.
             for one in (heat, motor, held):
@@ -184,10 +184,15 @@ def _lasting(
     return 0.0
 
 
-def _drawn(machine: Machine, samples: int, sensitivity: bool) -> tuple[Drawn | None, str]:
+def _drawn(
+    machine: Machine,
+    samples: int,
+    sensitivity: bool,
+    warm: Callable[[], MachineTemperatures | None],
+) -> tuple[Drawn | None, str]:
     if not samples:
         return None, "no toleranced gearboxes were drawn here; `check` draws them"
     try:
-        return drawn_gearboxes(machine, samples, sensitivity=sensitivity), ""
+        return drawn_gearboxes(machine, samples, sensitivity=sensitivity, warm=warm), ""
     except (ContactError, UsageError) as error:
         return None, f"no gearboxes could be drawn: {error.message}"

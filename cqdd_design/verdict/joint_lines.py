@@ -21,7 +21,7 @@ from cqdd_design.machine.cures import ROUGHLY, torques_that_hold
 from cqdd_design.machine.dowels import LoadedDowels, loaded_dowels
 from cqdd_design.machine.temperatures import MachineTemperatures
 from cqdd_design.results import Check
-from cqdd_design.solids.motor_rules import bell_material, bell_torque
+from cqdd_design.solids.motor_rules import MOST_HUB, bell_material, bell_torque
 
 _MEGA = 1e6
 _CURRENT = "motor.current_limit"
@@ -124,7 +124,9 @@ def _bell(machine: Machine, warm: MachineTemperatures | None) -> Check:
         hot, guessed = max(warm.hottest("rotor"), warm.hottest("shaft")), ""
     metal = find_material(bell_material(design))
     limit = bond_limit(ROTOR_COMPOUND, metal, hot)
-    stub, long = layout.shaft.support.bearing.bore_diameter, motor.hub_top - motor.hub_bottom
+    stub, hub = layout.shaft.support.bearing.bore_diameter, motor.hub_top - motor.hub_bottom
+    long = min(hub, MOST_HUB * stub)
+    idle = f" (of which {1e3 * long:.3g} carry)" if long < hub - 1e-9 else ""
     torque = bell_torque(design, layout.motor_row)
     value = joint_shear(torque, stub, long)
     cure = _WIDER
@@ -137,7 +139,7 @@ def _bell(machine: Machine, warm: MachineTemperatures | None) -> Check:
         name,
         value / _MEGA,
         limit.value / _MEGA,
-        f"{torque:.3g} N*m on a stub of {1e3 * stub:g} mm, bonded over {1e3 * long:.3g} mm at "
+        f"{torque:.3g} N*m on a stub of {1e3 * stub:g} mm, bonded over {1e3 * hub:.3g} mm{idle} at "
         f"{hot:.0f} degC{guessed}: "
         f"{value / _MEGA:.2f} MPa",
         cure,

@@ -87,16 +87,16 @@ def _shoulder(table: tuple[Retained, ...]) -> Check:
 
 
 def axial_growth(stack: AxialStack, warm: MachineTemperatures) -> tuple[float, float]:
-    """What the coldest start and settled temperatures add to the room of a stack, m.
+    """What the coldest start and warm parts add to the room of a stack, m: the least of these.
 
     Raises
     ------
     DesignError
         When the thermal expansion of a part is not known.
     """
-    settled = by_node(warm.reached)
-    coldest = dict.fromkeys(settled, warm.machine.design.environment.coldest)
-    return stack.growth(coldest), stack.growth(settled)
+    warmed = [by_node(state) for state in warm.states]
+    coldest = dict.fromkeys(warmed[0], warm.machine.design.environment.coldest)
+    return stack.growth(coldest), min(stack.growth(state) for state in warmed)
 
 
 def _play(

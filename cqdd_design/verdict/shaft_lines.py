@@ -20,7 +20,13 @@ from cqdd_design.gearbox.checks.equilibrium import DUTY_MODEL, ENDLESS, lower_du
 from cqdd_design.gearbox.checks.remedies import lower_outside, lower_peak
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.gearbox.life.cam import equivalent_load, set_life
-from cqdd_design.gearbox.output_bearing import OutputLoad, dynamic_load, static_load
+from cqdd_design.gearbox.output_bearing import (
+    OutputLoad,
+    axial_share,
+    dynamic_load,
+    static_load,
+    static_safety,
+)
 from cqdd_design.gearbox.pack_loads import PackLoads
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.machine import Machine
@@ -310,7 +316,6 @@ def _less_from_outside(machine: Machine, passes: Callable[[float], bool]) -> str
 
 def _output_static(machine: Machine, load: OutputLoad, remedy: str, rotor: _Rotor) -> Check:
     asked, row = machine.design.requirements, machine.seats[1].bearing
-    most = float(static_load(row, load).max())
     words = (
         f"{load.radial.max():.0f} N across, {rotor.told(1)}, "
         f"{load.axial.max():.0f} N along, {load.moment.max():.3g} N*m tilting"
@@ -318,13 +323,17 @@ def _output_static(machine: Machine, load: OutputLoad, remedy: str, rotor: _Roto
     if row.static_rating is None:
         told = f"{row.designation} under {words}: its rating is not known"
         return build_check("OUTPUT-STATIC", None, STATIC_SAFETY, told, remedy)
-    safety = row.static_rating / most
+    safety, most = static_safety(row, load), float(static_load(row, load).max())
+    rating, told = row.static_rating, "N"
+    if safety < rating / most * (1.0 - 1e-9):
+        rating *= axial_share(row)
+        told, most = f"N, {axial_share(row):.0%} of its rating, along the axis", rating / safety
     return build_check(
         "OUTPUT-STATIC",
         safety,
         STATIC_SAFETY,
-        f"{row.designation}: {row.static_rating:.0f} N/{most:.1f} N = {safety:.3f}, from {words} "
-        f"at {asked.peak_torque:g} N*m",
+        f"{row.designation}: {rating:.0f} {told}/{most:.1f} N = {safety:.3f}, from {words} at "
+        f"{asked.peak_torque:g} N*m",
         remedy,
     )
 

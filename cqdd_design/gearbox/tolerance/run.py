@@ -138,6 +138,12 @@ class ToleranceResult:
             done = len(self.values)
             return (f"interrupted after {done} of {self.asked} gearboxes; these are kept.",)
         told = list(self.ensemble.temperatures.beyond(self.ensemble.design))
+        teeth = self.ensemble.design.reducer.ratio * (self.ensemble.design.reducer.ratio + 1)
+        if self.ensemble.angles < teeth:
+            told.append(
+                f"{self.ensemble.angles} angles are fewer than one a tooth ({teeth}): forces, "
+                f"ripple and the share that binds come out too low; take --angles {2 * teeth}."
+            )
         if self.lost:
             told.append(
                 f"for {self.lost} of {self.asked} gearboxes no forces were found that carry the "
