@@ -136,6 +136,6 @@ def _several(
             out.warn(f"{one.path}: {one.error}")
         else:
             out.say(f"{one.path}: {len(one.files)} files")
-    document = {"kinds": list(kinds), "designs": [one.to_dict() for one in found]}
-    out.document(document | {"files": [file for one in found for file in one.files]})
+    files = [file for one in found for file in one.files]
+    out.document({"kinds": list(kinds), "designs": [one.to_dict() for one in found]}, files=files)
     return next((one.exit_code for one in found if one.exit_code), 0)

@@ -15,9 +15,9 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from cqdd_design.errors import UsageError
+from cqdd_design.files import WrittenFile
 
 COMMAND = (sys.executable, "-m", "cqdd_design")
 
@@ -32,8 +32,8 @@ class DesignExport:
         Design file.
     exit_code : int
         Of its process: 0, one of the command line's codes, or 1 after a crash.
-    files : tuple of dict
-        ``path``, ``kind``, ``bytes``, ``sha256`` of every file; none of a design that failed.
+    files : tuple of WrittenFile
+        None of a design that failed.
     error : str
         Why it failed; empty where it did not.
     warnings : tuple of str
@@ -42,7 +42,7 @@ class DesignExport:
 
     path: Path
     exit_code: int
-    files: tuple[dict[str, Any], ...]
+    files: tuple[WrittenFile, ...]
     error: str
     warnings: tuple[str, ...] = ()
 
@@ -51,7 +51,7 @@ class DesignExport:
         return {
             "design_file": str(self.path),
             "exit_code": self.exit_code,
-            "files": list(self.files),
+            "files": [one.to_dict() for one in self.files],
             "error": self.error or None,
             "warnings": list(self.warnings),
         }
@@ -119,7 +119,8 @@ def _export_one(path: Path, arguments: Sequence[str], command: Sequence[str]) ->
     code = process.returncode
     if code == 0:
         told = json.loads(process.stdout)
-        return DesignExport(path, 0, tuple(told["files"]), "", tuple(told["warnings"]))
+        files = tuple(WrittenFile(**(one | {"path": Path(one["path"])})) for one in told["files"])
+        return DesignExport(path, 0, files, "", tuple(told["warnings"]))
     # The sentence comes last, after the progress.
     last = process.stderr.strip().rpartition("cqdd-design: ")[2] or "it said nothing"
     if code < 0:

@@ -67,6 +67,38 @@ def test_the_command_line_takes_several_designs(folder: Path, cqdd) -> None:  # 
     assert not (folder / "out" / "broken").exists()
 
 
+def test_no_design_replaces_another(folder: Path, cqdd) -> None:  # type: ignore[no-untyped-def]
+    """Two of one file name would be written to one folder, and both be reported."""
+    (folder / "other").mkdir()
+    (folder / "other" / "one.toml").write_bytes((folder / "one.toml").read_bytes())
+    files = [str(folder / "one.toml"), str(folder / "other" / "one.toml")]
+    done = cqdd("export", *files, "--to", "dxf", "--out", str(folder / "out"))
+    assert done.code == 2
+    assert "would both be exported as 'one'" in done.err
+    assert not (folder / "out").exists()
+
+
+def test_warnings_and_files_are_those_of_every_design(folder: Path, cqdd) -> None:  # type: ignore[no-untyped-def]
+    files = [str(folder / f"{name}.toml") for name in ("one", "two")]
+    alone = cqdd("export", files[0], "--to", "urdf", "--out", str(folder / "a"), "--json")
+    (told,) = [one for one in json.loads(alone.out)["warnings"] if "effort limit" in one]
+    done = cqdd("export", *files, "--to", "urdf", "--out", str(folder / "b"), "--json")
+    both = json.loads(done.out)
+    assert f"{files[0]}: {told}" in both["warnings"]
+    assert sum("effort limit" in one for one in both["warnings"]) == 2
+    assert {Path(one["path"]).name for one in both["files"]} == {"one.urdf", "two.urdf"}
+
+
+def test_a_file_name_with_signs_is_its_own(folder: Path, cqdd) -> None:  # type: ignore[no-untyped-def]
+    """Never that of the `name` within, whose files it would replace."""
+    odd = folder / "10:1 <b>.toml"
+    odd.write_bytes((folder / "one.toml").read_bytes())
+    done = cqdd("export", str(odd), "--to", "dxf", "--out", str(folder / "out"))
+    assert done.code == 0
+    written = {path.name for path in (folder / "out").rglob("*.dxf")}
+    assert written == {"10_1 _b_-disc.dxf", "10_1 _b_-ring.dxf"}
+
+
 def test_options_travel(folder: Path, cqdd) -> None:  # type: ignore[no-untyped-def]
     files = [str(folder / f"{name}.toml") for name in ("one", "two")]
     options = ("--dxf-version", "R12", "--tab-length", "2 mm", "--workers", "1")

@@ -82,6 +82,16 @@ def test_figures_of_the_first_screen_and_their_lines_agree(
             )
 
 
+def test_no_reflected_inertia_is_known_of_a_motor_without_one(judged: Verdict) -> None:
+    """A rotor's share of the motor's mass draws it, and says nothing of its inertia."""
+    machine = judged.evidence.machine
+    lacking = replace(machine, motor=replace(machine.motor, rotor_inertia=None))
+    assert lacking.inertia.rotor_drawn > 0.0
+    lines = asked_lines(replace(judged.evidence, machine=lacking))
+    line = next(one for one in lines if one.id == "REFLECTED-INERTIA")
+    assert (line.status, line.value) == ("unknown", None)
+
+
 def test_limits_are_those_asked_for(lines: dict[str, Check]) -> None:
     wanted = {
         "BACKLASH": 6.0,

@@ -96,6 +96,13 @@ def test_columns_of_any_name_order_and_unit_are_read(tmp_path, text, columns):
          "line 18: a gap of 9.1 s in column 'time [s]', where rows are 0.1 s apart"),
         (f"{HEAD}\n0,0,0\n1,-0.0,0\n", "are 0 in every row, which is rest alone"),
         ("PK\x03\x04\0\0", "is not a text file"),
+        (f"{HEAD},temp\n0,6,5,1,5,40\n1,7,5,2,5,41\n", "line 2 has 6 cells, and the headings 4"),
+        (f"{HEAD}\n0,1,2\n1,1,2,7\n", "line 3 has 4 cells, and the headings 3; take the others"),
+        (f"{HEAD}\n0,1_000,2\n1,1,2\n", "line 2: '1_000' in column 'torque [N*m]' is no number"),
+        ("0,1,0.5\n1,1,2\n", "has no line of headings; put time [s],torque [N*m],speed [rad/s]"),
+        ("t [ms],load [N*m],speed [rad/s]\n0,1,2\n", '--duty-columns "torque=load [N*m]"'),
+        ("time [s],torque [N*m],tau [N*m],speed [rpm]\n0,1,2,3\n", '"torque=torque [N*m]"'),
+        ("time [s],a,speed [rpm]\n0,1,2\n", '--duty-columns "torque=NAME [N*m]"'),
     ],
 )  # fmt: skip
 def test_what_is_no_duty_is_a_sentence_with_line_and_column(tmp_path, text, says):
@@ -105,6 +112,12 @@ def test_what_is_no_duty_is_a_sentence_with_line_and_column(tmp_path, text, says
     assert says in caught.value.message
     assert str(path) in caught.value.message
     assert "\n" not in caught.value.message
+
+
+def test_an_empty_cell_at_the_end_of_lines_is_none(tmp_path):
+    assert read_duty(written(tmp_path, f"{HEAD}\n0,1,2,\n1,1,2,\n")).rows == 2
+    quoted = f'{HEAD},note\n0,1,2,"a, b"\n1,1,2,""\n'
+    assert read_duty(written(tmp_path, quoted)).rows == 2
 
 
 def test_a_torque_held_at_rest_is_a_duty_and_so_is_turning_without_one(tmp_path):

@@ -220,6 +220,45 @@ def test_the_stated_torque_is_what_the_weakest_of_three_bears() -> None:
     assert max(soft.torque, seat.torque) < 0.3 * M4.torque
 
 
+def test_cold_takes_preload_where_what_is_clamped_shrinks_more() -> None:
+    """By l_K (alpha_P - alpha_S) dT over the compliance, and nothing of steel."""
+    cold = replace(M4, coldest=-40.0)
+    lost = M4.least_preload - cold.least_preload
+    # One face more settles by 2 um, over the same compliance.
+    settled = (M4.least_preload - replace(M4, faces=2).least_preload) / 2e-6
+    grown = (LIGHT.expansion or 0.0) - (SCREW.expansion or 0.0)
+    assert lost == pytest.approx(settled * 8e-3 * grown * 60.0)
+    assert lost > 0.05 * M4.least_preload
+    steel = find_material("AISI 4140 Q&T 540C")
+    alike = replace(M4, clamped=steel, tapped=steel)
+    assert replace(alike, coldest=-40.0).least_preload == pytest.approx(
+        alike.least_preload, rel=2e-3
+    )
+
+
+def test_screws_of_a_machine_are_judged_at_its_coldest(machine: Machine) -> None:
+    colder = machine.changed({"environment.coldest": "-40 degC"})
+    for one, other in zip(screw_joints(machine), screw_joints(colder), strict=True):
+        assert (one.clamping.coldest, other.clamping.coldest) == (-10.0, -40.0)
+        # Layouts answer by larger screws.
+        assert replace(one.clamping, coldest=-40.0).least_preload <= one.clamping.least_preload
+
+
+def test_no_more_of_a_hub_carries_than_two_diameters(machine: Machine) -> None:
+    motor = machine.layout.motor_end
+    assert motor is not None
+    stub = machine.layout.shaft.support.bearing.bore_diameter
+    line = next(one for one in joint_lines(machine, None) if one.id == "BELL-JOINT")
+    top = motor.hub_bottom + 4.0 * stub
+    longer = replace(machine)
+    ends = replace(machine.layout, motor=replace(motor, hub_top=top))
+    vars(longer).update(vars(machine) | {"layout": ends})
+    told = next(one for one in joint_lines(longer, None) if one.id == "BELL-JOINT")
+    assert f"(of which {2e3 * stub:.3g} carry)" in told.substituted
+    bonded = motor.hub_top - motor.hub_bottom
+    assert told.value == pytest.approx(line.value * bonded / (2.0 * stub))
+
+
 def test_what_settles_takes_more_from_short_screws() -> None:
     assert M4.least_preload < M4.preload / 1.6
     longer = replace(M4, grip=20e-3)
@@ -263,6 +302,7 @@ def test_slip_is_a_balance_of_friction(across: float, along: float) -> None:
 
 
 def test_screws_hold_what_the_output_bearing_and_the_torque_ask(machine: Machine) -> None:
+    machine = machine.changed({"requirements.peak_torque": "75 N*m"})
     joints = {one.place: one for one in screw_joints(machine)}
     loads = output_loads(machine, machine.peak_pack)
     cover = joints["cover and ring clamp on the housing"]

@@ -27,6 +27,7 @@ from cqdd_design.machine.temperatures import machine_temperatures
 PLACE = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
 DESIGN = load_design(PLACE)
 LITE = find_motor("CubeMars RO100 Lite KV55")
+INRUNNER = "CubeMars RI80 V2.0 KV75"
 WINDING = {"speed_constant": "60 rpm/V", "resistance": "0.1 ohm"}
 
 
@@ -210,11 +211,52 @@ def test_a_design_without_keys_of_a_motor_is_what_it_was() -> None:
         ({**WINDING, "rotor_inertia": "1 kg*m"}, "not a unit of moment of inertia"),
         ({"name": LITE.name, "rotor_inertia": "2e-3 kg*m^2"}, "0.525 kg within 108.3 mm can have"),
         ({"name": LITE.name, "outer_diameter": "90 mm"}, "gap_diameter 100 mm is not inside"),
+        ({"name": LITE.name, "stack_length": "60 mm"}, "stack_length 60 mm is not inside length"),
+        ({"name": LITE.name, "rotor_length": "60 mm"}, "rotor_length 60 mm is not inside length"),
+        ({"name": LITE.name, "slot_depth": "20 mm"}, "slot_depth 20 mm does not fit between bore_"),
+        (
+            {"name": INRUNNER, "hollow_diameter": "60 mm"},
+            "hollow_diameter 60 mm is not inside",
+        ),
+        ({"name": INRUNNER, "slot_depth": "18 mm"}, "between gap_diameter .* which leave 17.25 mm"),
+        ({"name": INRUNNER, "rotor_inertia": "1e-3 kg*m^2"}, "is more than iron between"),
+        ({**WINDING, "kind": "gimbal"}, "must be 'outrunner' or 'inrunner'"),
     ],
 )
 def test_motors_that_cannot_be_are_refused(keys: dict[str, Any], says: str) -> None:
     with pytest.raises(DesignError, match=says):
         resolve(with_table(**keys))
+
+
+def test_an_inrunner_of_ones_own_says_that_it_is_one() -> None:
+    """Without the word its rotor's bore is a hole through the shaft, and no stator has one."""
+    row = find_motor(INRUNNER)
+    sizes = {
+        name: f"{1e3 * getattr(row, name)} mm"
+        for name in ("outer_diameter", "length", "hollow_diameter", "gap_diameter")
+    }
+    sizes |= {"stack_length": "20 mm", "rotor_length": "22 mm", "slot_depth": "8 mm"}
+    own = {"name": "mine", **WINDING, **sizes, "mass": "0.4 kg"}
+    unsaid, said = with_table(**own), with_table(**own, kind="inrunner")
+    assert 'kind = "inrunner" where its rotor turns inside' in resolve(unsaid).layout.motor_missing
+    machine = resolve(said)
+    assert machine.layout.inrunner is not None
+    masses = {part.name: part.mass for part in machine.parts}
+    heavier = with_table(
+        **{key: value for key, value in own.items() if key != "mass"},
+        kind="inrunner", rotor_mass="0.2 kg", stator_mass="0.2 kg",
+    )  # fmt: skip
+    other = {part.name: part.mass for part in resolve(heavier).parts}
+    assert other["motor rotor"] == pytest.approx(0.2)
+    assert masses["motor rotor"] == pytest.approx(0.3 * 0.4)
+    assert other["motor rotor"] + other["motor stator"] == pytest.approx(0.4)
+
+
+def test_a_limit_that_never_binds_names_one_that_does() -> None:
+    """Rounded to a current that the winding takes, not beyond it."""
+    slow = with_table(name=LITE.name, resistance="5.8 ohm", current_limit="50 A")
+    with pytest.raises(DesignError, match=r"lower it to 8\.27 A"):
+        actuator_parameters(resolve(slow))
 
 
 def test_a_file_and_a_name_must_be_about_one_motor() -> None:

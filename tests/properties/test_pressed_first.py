@@ -43,6 +43,18 @@ def test_outer_rings_that_the_load_turns_in_are_held(machine: Machine) -> None:
     assert "keeps the outer rings from creeping" in fitting_notes(machine)["shaft bearing"]
 
 
+def test_an_inrunner_cover_goes_on_when_its_hub_has_been_set() -> None:
+    """Its height is measured from the face that the cover closes, with the shaft in it."""
+    design = load_design(TOP / "designs" / "cqdd-10.toml")
+    own = {"name": "CubeMars RI80 V2.0 KV75", "slot_depth": "9 mm"}
+    machine = resolve(design.replacing({f"motor.{key}": value for key, value in own.items()}))
+    steps, whole = taken_apart(machine.design, machine.parts)
+    assert whole
+    gone = [station.part.name for step in steps if not step.unit for station in step.moved]
+    for name in ("rotor hub", "encoder magnet", "eccentric shaft", "housing"):
+        assert gone.index("motor cover") < gone.index(name)
+
+
 @pytest.mark.parametrize("name", ["docs/gallery/efficient-10", "docs/gallery/plain-10"])
 def test_the_motor_cover_goes_on_when_bell_and_magnet_have_been_set(name: str) -> None:
     """From the face that it closes, by a height gauge, while the bonds cure."""

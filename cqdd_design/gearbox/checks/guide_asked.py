@@ -34,7 +34,8 @@ ROWS = (
         "Stiffness of 95 % of the gearboxes",
         "N*m/arcmin",
         "min",
-        "5th percentile of drawn gearboxes >= the required stiffness",
+        "5th percentile of drawn gearboxes, at 20 degC and at least clearance, >= the required "
+        "stiffness",
         "A soft joint swings: the first mode of a limb is that of its inertia on this spring.",
         _ASKED,
         basis=DRAWN,

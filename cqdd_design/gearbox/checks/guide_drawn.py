@@ -13,7 +13,8 @@ ROWS = (
         "min",
         f"share of {limits.YIELD_SAMPLES} gearboxes >= requirements.yield",
         "Parts are as good as their tolerances. A gearbox drawn from them counts where it turns "
-        f"without load at less than {limits.BINDING_SHARE:.0%} of the continuous torque, where its "
+        f"without load at less than {limits.BINDING_SHARE:.0%} of the continuous torque, at 20 "
+        "degC and in the state of warmth or cold that leaves least clearance, where its "
         "greatest pressure at the ring and cam load at the peak torque stay within the limits of "
         "perfect parts, and where at the continuous torque they exceed those of perfect parts by "
         "no more than these have in reserve over the life. Pins in their holes are judged with "

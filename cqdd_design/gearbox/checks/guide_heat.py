@@ -14,11 +14,13 @@ ROWS = (
         "Steady temperature of winding, grease and housing",
         "degC",
         "max",
-        f"winding <= {WINDING_MOST:g}, warmest greased part <= {limits.GREASE_MOST:g}, "
+        f"winding <= {WINDING_MOST:g}, warmest greased part <= {limits.GREASE_MOST:g} and what its "
+        "lubricant bears, "
         "housing and parts of the gearbox <= what their material bears",
         "At the duty, or at the continuous torque and input speed for ever, parts settle where "
         "their losses are carried off: by still air alone, or by what drive.thermal_resistance "
-        "states. Shown is the part that uses most of the rise it is allowed. Losses are those of "
+        "states; over a duty each is judged at its hottest moment. Shown is the part that uses "
+        "most of the rise it is allowed. Losses are those of "
         "parts at these temperatures: their clearances, films and grease, copper and magnets. "
         "Where warm parts have none it is judged by those at 20 degC, and never passes by them.",
         f"{_NETWORK}; limits: IEC 60085 class E, SKF LGMT 2, catalogue of materials",

@@ -48,7 +48,7 @@ ROWS = (
         "tau = 2 T/(pi d^2 l) <= strength of the compound x share on the bell x share at its "
         f"temperature/{limits.BOND_SAFETY:g}",
         "All that the motor gives goes through the hub of its bell, which nothing but a retaining "
-        "compound holds on the shaft's stub.",
+        "compound holds on the shaft's stub; of a hub longer than two diameters no more counts.",
         "Wittel and others 2017, Roloff/Matek Maschinenelemente, section 5.1 (bonded hubs); ISO "
         "10123 (strength)",
         basis="torque at the driver's current, at most the motor's peak; hub as drawn; temperature "
@@ -75,10 +75,11 @@ ROWS = (
         "Screwed joints, least clamping force over what holds them at peak torque",
         "",
         "min",
-        f"mu (F_M/alpha_A - F_Z - F_A)/F_Q >= {limits.SLIP_SAFETY:g}, mu {GRIP_FRICTION:g}, "
+        f"mu (F_M/alpha_A - F_Z - F_th - F_A)/F_Q >= {limits.SLIP_SAFETY:g}, mu {GRIP_FRICTION:g}, "
         f"alpha_A {TIGHTENING_FACTOR:g}, F_M of the stated tightening torque",
         "A joint that slips wears, loosens its screws and shears them. Short screws lose a third "
-        "of their preload as faces settle.",
+        "of their preload as faces settle, and some in the cold, where aluminium shrinks by more "
+        "than they do (F_th, at environment.coldest).",
         f"{_VDI}, slipping and embedding",
         basis=_EQUILIBRIUM,
     ),

@@ -108,10 +108,12 @@ ROWS = (
         "",
         "min",
         f"C0/P0 >= {limits.STATIC_SAFETY:g}; crossed rollers: P0 = F_r + 2 M/d_p + 0.44 F_a; "
-        "balls: 0.6 F_r + 0.5 (F_a + 4.37 M/d_p), at least F_r",
+        "balls: 0.6 F_r + 0.5 (F_a + 4.37 M/d_p), at least F_r, and 4 (F_a + 4.37 M/d_p) (2 of the "
+        "diameter series 2 to 4)",
         "Pins and shaft push the carrier from one side and tilt it, and what hangs on the joint "
         "(requirements.external_moment, external_axial, external_radial) adds to that.",
-        "THK, General Catalog, Cross-Roller Ring; ISO 76:2006; Harris and Kotzalas 2006, Rolling "
+        "THK, General Catalog, Cross-Roller Ring; SKF, Rolling bearings, deep groove ball "
+        "bearings, loads; ISO 76:2006; Harris and Kotzalas 2006, Rolling "
         "Bearing Analysis (balls under a moment)",
         basis=_EQUILIBRIUM,
     ),
