@@ -26,6 +26,7 @@ from cqdd_design.sizing.spaces import Found
 from cqdd_design.solids.proportions import seat_bearings
 from cqdd_design.verdict.bore_line import bore_line
 from cqdd_design.verdict.joint_lines import bell_line
+from cqdd_design.verdict.retention_lines import shoulder_on_shaft
 from cqdd_design.verdict.rotor_lines import rotor_lines
 from cqdd_design.verdict.shaft_lines import shaft_lines
 
@@ -38,7 +39,8 @@ AT_PEAK = frozenset({"SHAFT-STRENGTH", ENDS, _CAM})
 proportion, the bearings by less, since what the rotor puts on them stays."""
 ROTOR = frozenset({"SHAFT-ROTOR-GAP", "SHAFT-STUB"})
 """Lines of what hangs on the shaft's stub."""
-ANY_TORQUE = ROTOR | {"BORE"}
+_SHOULDER = "RETENTION-SHOULDER"
+ANY_TORQUE = ROTOR | {"BORE", _SHOULDER}
 """Lines that no less torque helps."""
 SHAFT = AT_PEAK | ANY_TORQUE | {"SHAFT-FATIGUE", "SUPPORT-LIFE"} | BONDS
 """Lines that a cam bearing with a wider bore helps."""
@@ -62,8 +64,8 @@ def weak_lines(machine: Machine) -> tuple[Check, ...]:
     short = (one for one in shaft_lines(rigid) if one.id in SHAFT and one.status in _SHORT)
     # What is not known of a rotor no shaft tells.
     hung = (one for one in rotor_lines(rigid) if one.status == "fail")
-    bore = bore_line(rigid)
-    return (*short, *hung, *((bore,) if bore is not None and bore.status == "fail" else ()))
+    drawn = (bore_line(rigid), shoulder_on_shaft(rigid))
+    return (*short, *hung, *(one for one in drawn if one is not None and one.status == "fail"))
 
 
 def with_sound_ends(found: Found) -> Found:

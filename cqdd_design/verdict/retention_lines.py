@@ -20,6 +20,7 @@ _CURES = {
     "(fewer or thinner output_pins, or another circle_radius)",
     "carrier column": "give the columns screws (a larger carrier.column_diameter)",
 }
+_ON_SHAFT = ("shaft bearing", "cam bearing")
 _SHOULDER_CURES = {
     "shaft": "a cam bearing with a larger bore, or less eccentricity, leaves higher shoulders",
     "output": "another carrier_bearing.designation, with smaller chamfers or higher rings",
@@ -41,7 +42,16 @@ def retention_lines(machine: Machine, warm: MachineTemperatures | None = None) -
             build_check(one, None, None, error.message, "see why it is not known") for one in _LINES
         )
     walls = least_walls(machine.parts)
-    return (_held(table), _shoulder(table), _play(machine, stacks, warm), _wall(walls))
+    return (_held(table), _shoulder(table)[0], _play(machine, stacks, warm), _wall(walls))
+
+
+def shoulder_on_shaft(machine: Machine) -> Check | None:
+    """RETENTION-SHOULDER, where a bearing of the shaft decides it."""
+    try:
+        line, row = _shoulder(machine.retention)
+    except (CatalogError, GeometryError):
+        return None
+    return line if row.startswith(_ON_SHAFT) else None
 
 
 def _held(table: tuple[Retained, ...]) -> Check:
@@ -62,7 +72,8 @@ def _by_faces(table: tuple[Retained, ...]) -> int:
     return sum(row.up.face > 0.0 and row.down.face > 0.0 for row in table)
 
 
-def _shoulder(table: tuple[Retained, ...]) -> Check:
+def _shoulder(table: tuple[Retained, ...]) -> tuple[Check, str]:
+    """The line, and the bearing that decides it."""
     every: list[tuple[Bearing, Retained, Stop]] = [
         (row.bearing, row, stop)
         for row in table
@@ -72,10 +83,10 @@ def _shoulder(table: tuple[Retained, ...]) -> Check:
     ]
     if not every:
         told = "no bearing stands on a shoulder"
-        return build_check("RETENTION-SHOULDER", None, None, told, "see RETENTION-HELD")
+        return build_check("RETENTION-SHOULDER", None, None, told, "see RETENTION-HELD"), ""
     bearing, row, stop = min(every, key=lambda one: one[2].sure / one[0].largest_chamfer)
     least, largest = bearing.largest_fillet, bearing.largest_chamfer
-    return build_check(
+    line = build_check(
         "RETENTION-SHOULDER",
         stop.sure / least,
         largest / least,
@@ -84,6 +95,7 @@ def _shoulder(table: tuple[Retained, ...]) -> Check:
         f"{1e3 * least:.3g} to {1e3 * largest:.3g} mm",
         _SHOULDER_CURES["output" if row.name.startswith("output") else "shaft"],
     )
+    return line, row.name
 
 
 def axial_growth(stack: AxialStack, warm: MachineTemperatures) -> tuple[float, float]:
