@@ -27,6 +27,7 @@ ROUGHLY = 5e-3
 """The same where a look costs much."""
 SEARCHED_CASES = 8
 """Cases of a duty up to which a share of its torques is looked for."""
+_A_LITTLE_LESS = 0.99
 _FARTHEST = 8.0
 """By how much a torque is changed at once."""
 
@@ -103,6 +104,18 @@ def most_that_holds(
         known[at] = margin(at)
         in_a_row = in_a_row + 1 if known[at] >= 1.0 else 0
     return max((at for at, value in known.items() if value >= 1.0), default=0.0)
+
+
+def borne_out(found: float, holds: Callable[[float], bool]) -> float:
+    """A torque, or a share, that holds with all that a layout changes for it; 0 where none does.
+
+    A search that leaves the layout as it is ends beside it: less torque has other screws.
+    """
+    for _ in range(_LOOKS):
+        if not found or holds(found):
+            return found
+        found *= _A_LITTLE_LESS
+    return 0.0
 
 
 def _lower(known: dict[float, float], above: float, near: float) -> float:

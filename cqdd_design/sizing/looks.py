@@ -7,9 +7,7 @@ more reserve.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
-from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from functools import partial
 
@@ -20,7 +18,7 @@ from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.design import Requirements
 from cqdd_design.errors import ContactError, DesignError
 from cqdd_design.gearbox.checks.heat import cooling_remedy
-from cqdd_design.gearbox.tolerance.run import BLOCK, FIRST, ToleranceResult
+from cqdd_design.gearbox.tolerance.run import BLOCK
 from cqdd_design.machine import Machine
 from cqdd_design.machine.temperatures import (
     MachineTemperatures,
@@ -36,6 +34,7 @@ from cqdd_design.sizing.finish import torque_reserve
 from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.shafts import stronger_shaft
 from cqdd_design.sizing.spaces import FITS, Found, spaces
+from cqdd_design.sizing.trial_gearboxes import TRIAL_SAMPLES, calibrate, drawn_alike
 from cqdd_design.solids.motor_rules import undrawn_sizes
 from cqdd_design.verdict.drawn import (
     SOFT,
@@ -52,7 +51,6 @@ from cqdd_design.verdict.motor import held_up_to, motor_lines
 HOT = "THERMAL-RISE"
 _LEAST_STEP = 1e-6
 """Clearance that has to grow at all, m: to the next fit."""
-_TRIAL_SAMPLES = FIRST
 _LESS = 0.9
 """Share of both torques that is tried next where a gearbox has no equilibrium."""
 _SPARE = 1.02
@@ -62,8 +60,6 @@ _BESIDE = 0.98
 clearance that was given since, the very gearbox may have to move there."""
 _WIDEST = 0.995
 """Share of the largest ring beyond which no wider one is asked for."""
-_ALIKE = 1.25
-"""Ratio of the thickness of discs, or of torques, up to which they are taken to yield alike."""
 _LOOKS = 12
 """At one design before the search is repeated."""
 
@@ -250,7 +246,7 @@ def closer_look(hunt: Hunt, found: Found, machine: Machine) -> float | None:
     """
     hunt.say("looking at toleranced gearboxes of a design")
     try:
-        drawn = _drawn(hunt, machine)
+        drawn = drawn_alike(hunt, machine)
     except ContactError:
         return _LEAST_STEP
     rigid = replace(machine, stiff=True)
@@ -264,81 +260,17 @@ def last_look(hunt: Hunt, machine: Machine) -> float | None:
     missing. The verdict goes on from the others.
     """
     warm = partial(known_temperatures, machine)
-    for samples in (_TRIAL_SAMPLES, BLOCK):
+    for samples in (TRIAL_SAMPLES, BLOCK):
         try:
             drawn = drawn_gearboxes(machine, samples, sensitivity=False, warm=warm)
             lines = yielding_checks(machine)
         except ContactError:
             return _LEAST_STEP
-        _calibrate(hunt, machine, drawn)
+        calibrate(hunt, machine, drawn)
         step = read_spread(hunt, machine, drawn, lines)
         if step is not None:
             return step
     return None
-
-
-@contextmanager
-def drawing_ahead(machine: Machine) -> Iterator[None]:
-    """Draw the first gearboxes of `last_look` beside other looks: they are kept for it.
-
-    What is wrong with them it finds and tells itself.
-    """
-    with ThreadPoolExecutor(1) as beside:
-        beside.submit(drawn_gearboxes, machine, _TRIAL_SAMPLES, sensitivity=False)
-        yield
-
-
-def _drawn(hunt: Hunt, machine: Machine) -> Drawn:
-    """A few gearboxes, whose discs and ring yield as they did at another design of the hunt.
-
-    The finite elements of a new geometry cost more than all else here, and what yielding changes,
-    as a share, is alike for designs of one hunt with discs of about the same thickness and for
-    about the same torques.
-    """
-    warm = partial(known_temperatures, replace(machine, stiff=True))
-    new = hunt.yielding is None or not _yield_alike(hunt.yielding_at, _yielding_at(machine))
-    with ThreadPoolExecutor(1) as beside:
-        if new:
-            # They are asked for next, and rigid gearboxes leave Python to them.
-            beside.submit(getattr, machine, "bodies")
-        rigid = drawn_gearboxes(machine, _TRIAL_SAMPLES, sensitivity=False, rigid=True, warm=warm)
-    hunt.rigid = machine, tuple(map(_high, rigid[:2]))
-    if new:
-        found = drawn_gearboxes(machine, _TRIAL_SAMPLES, sensitivity=False, warm=warm)
-        _calibrate(hunt, machine, found)
-        return found
-    assert hunt.yielding is not None
-    # Warm gearboxes yield as those do that are under the same torque.
-    shares = (*hunt.yielding, hunt.yielding[0])
-    both = zip(rigid.every, shares, strict=False)
-    return Drawn(*(replace(one, values=one.values * share) for one, share in both))
-
-
-def _yielding_at(machine: Machine) -> tuple[float, ...]:
-    """What of a design decides most of how its bodies yield: thickness of its discs, m, torques."""
-    asked = machine.design.requirements
-    return machine.design.reducer.disc_thickness, asked.peak_torque, asked.continuous_torque
-
-
-def _yield_alike(one: tuple[float, ...], other: tuple[float, ...]) -> bool:
-    ratios = (mine / theirs for mine, theirs in zip(one, other, strict=True))
-    return all(1.0 / _ALIKE <= ratio <= _ALIKE for ratio in ratios)
-
-
-def _calibrate(hunt: Hunt, machine: Machine, drawn: Drawn) -> None:
-    """Note what yielding discs and ring change, where a machine was looked at without them too."""
-    if hunt.rigid is None or hunt.rigid[0].design != machine.design:
-        return
-    hunt.yielding_at = _yielding_at(machine)
-    hunt.yielding = tuple(
-        _high(one) / np.where(other, other, 1.0)
-        for one, other in zip(drawn[:2], hunt.rigid[1], strict=True)
-    )
-
-
-def _high(result: ToleranceResult) -> NDArray[np.float64]:
-    """What 95 % of the gearboxes stay below, of every output."""
-    return np.quantile(result.values, 0.95, axis=0)
 
 
 def clearance_needed(found: MachineTemperatures | None, checks: Iterable[Check]) -> float:

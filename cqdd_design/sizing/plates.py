@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from cqdd_design.catalog.bearings import SHAFT_MATERIAL
-from cqdd_design.machine.temperatures import judged_temperatures
+from cqdd_design.machine import Machine
+from cqdd_design.machine.temperatures import known_temperatures
 from cqdd_design.sizing.spaces import Found
 from cqdd_design.verdict.output_seat_line import output_seat_line, steel_helps
 
@@ -21,12 +22,15 @@ def with_sound_plate(found: Found) -> Found:
     Of the very same gearbox: steel is three times as heavy, so aluminium is searched for, and of
     what a steel carrier changes of loads and heat most is for the better.
     """
-    sized = found.sized
-    if sized.design.carrier_material == SHAFT_MATERIAL:
+    if not needs_steel(replace(found.sized.machine, stiff=True)):
         return found
-    rigid = replace(sized.machine, stiff=True)
-    warm = judged_temperatures(rigid)[0]
+    return replace(found, sized=found.sized.remade({_MATERIAL: SHAFT_MATERIAL}))
+
+
+def needs_steel(rigid: Machine) -> bool:
+    """Whether a machine's carrier would press its bearing, and one of steel would not."""
+    if rigid.design.carrier_material == SHAFT_MATERIAL:
+        return False
+    warm = known_temperatures(rigid)
     line = output_seat_line(rigid, warm)
-    if not line.known or line.margin >= _SURE or not steel_helps(rigid, warm):
-        return found
-    return replace(found, sized=sized.remade({_MATERIAL: SHAFT_MATERIAL}))
+    return line.known and line.margin < _SURE and steel_helps(rigid, warm)

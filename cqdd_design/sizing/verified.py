@@ -25,7 +25,6 @@ from cqdd_design.sizing.infeasible import SizingInfeasibleError
 from cqdd_design.sizing.kinds import lightest, promising
 from cqdd_design.sizing.looks import (
     NothingWiderError,
-    drawing_ahead,
     last_look,
     learn,
     look,
@@ -42,6 +41,7 @@ from cqdd_design.sizing.shafts import stronger_shaft, turn_to_less_throw
 from cqdd_design.sizing.spaces import Found, closer
 from cqdd_design.sizing.stage_tables import stage_tables
 from cqdd_design.sizing.sturdiest import strong_and_sound
+from cqdd_design.sizing.trial_gearboxes import drawing_ahead
 from cqdd_design.sizing.turns import cooler_gearbox, next_step, turned
 from cqdd_design.verdict import Verdict, judge
 

@@ -167,7 +167,9 @@ def _take(things: list[_Thing], unit: str, bonds: _Bonds) -> tuple[tuple[Step, .
         steps.append(Step(tuple(thing.station for thing in group), way, unit))
         if len(group) == 1:
             continue
-        # On the bench bonds come after what they hold is in its place.
+        # On the bench bonds come after what they hold is in its place, and a stator after what a
+        # key has to reach past it.
+        group.sort(key=lambda thing: thing.station.part.name != "motor stator")
         inner, whole = _take(group, unit_name(steps[-1]), {})
         steps += inner
         if not whole:

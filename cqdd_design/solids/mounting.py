@@ -18,7 +18,7 @@ _THREADS = (2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0)
 """Mounting screws that are tried, mm."""
 _PAIRED, _ALONE = 0.46, 1.1
 _COVER_RESERVE, _LARGER = 1.35, 2
-_RESERVE = 1.4
+_RESERVE = 1.28
 """Of the clamping force over what the torque asks for, of cover and mounting."""
 
 

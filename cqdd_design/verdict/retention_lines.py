@@ -163,4 +163,6 @@ def _wall(walls: tuple[Wall, ...]) -> Check:
         1e3 * limits[least],
         f"{least.part}: {1e3 * least.thickness:.3g} mm between {least.between}",
         "a larger ring, or fewer or thinner output_pins, leave more room",
+        # Holes that run into each other are no thin wall.
+        severity="fail" if least.thickness <= 0.0 else None,
     )

@@ -31,7 +31,7 @@ from cqdd_design.gearbox.pack_loads import PackLoads
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.machine import Machine
 from cqdd_design.machine.carrier_bearing import bearing_for_loads
-from cqdd_design.machine.cures import ROUGHLY, SEARCHED_CASES, torques_that_hold
+from cqdd_design.machine.cures import ROUGHLY, SEARCHED_CASES, borne_out, torques_that_hold
 from cqdd_design.machine.end_bearing import on_stronger_ends
 from cqdd_design.machine.output_loads import output_loads
 from cqdd_design.machine.rotor_overhang import rotor_overhang
@@ -114,7 +114,14 @@ def _cured(
         return (_strength(machine, peak, machine.under(duty_share=share).life.pack)[1],)
 
     asked, cases = machine.design.requirements, len(machine.life.duty)
+
+    def passes(torque: float) -> bool:
+        other = machine.under(peak=torque)
+        return _support_static(other, other.peak_pack, _rotor(other)).status == "pass"
+
     cures = torques_that_hold(at_peak, asked.peak_torque, (strength, static), near=ROUGHLY)
+    if static.id in cures:
+        cures[static.id] = borne_out(cures[static.id], passes)
     lower = {name: lower_peak(torque, asked.continuous_torque) for name, torque in cures.items()}
     if fatigue.status == "fail":
         shares = {}
@@ -249,14 +256,14 @@ def _output(
 ) -> tuple[Check, Check]:
     """Static safety and life, and another bearing where this one has too little of either."""
 
-    def both(remedy: str, external: float = 1.0) -> tuple[Check, Check]:
+    def both(remedy: str, external: float = 1.0, on: Machine = machine) -> tuple[Check, Check]:
         return (
-            _output_static(machine, output_loads(machine, peak, external), remedy, rotor),
-            _output_life(machine, output_loads(machine, duty, external), remedy),
+            _output_static(on, output_loads(on, peak, external), remedy, rotor),
+            _output_life(on, output_loads(on, duty, external), remedy),
         )
 
-    def passes(external: float) -> bool:
-        return all(line.status == "pass" for line in both("", external))
+    def passes(external: float, on: Machine = machine) -> bool:
+        return all(line.status == "pass" for line in both("", external, on))
 
     if passes(1.0):
         return both(_LIGHTER)
@@ -299,7 +306,7 @@ def _less_torque(machine: Machine, lines: tuple[Check, Check]) -> dict[str, str]
     return lower
 
 
-def _less_from_outside(machine: Machine, passes: Callable[[float], bool]) -> str:
+def _less_from_outside(machine: Machine, passes: Callable[..., bool]) -> str:
     """External loads that the bearing bears, in words; nothing where it bears none, or has none."""
     asked = machine.design.requirements
     stated = any(getattr(asked, key) for key in EXTERNAL_LOADS)
@@ -309,6 +316,8 @@ def _less_from_outside(machine: Machine, passes: Callable[[float], bool]) -> str
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if passes(middle) else (low, middle)
+    if not machine.stiff:
+        low = borne_out(low, lambda share: passes(1.0, machine.under_outside(share)))
     if not low:
         return ""
     return lower_outside(asked, low)

@@ -221,7 +221,8 @@ def test_an_inrunner_has_no_bell_for_balance_weights(paper):
 
 
 def test_sizes_of_an_outrunner_do_not_make_one_of_an_inrunner(paper):
-    known = paper.replacing({"motor": {"name": "CubeMars RI70 KV95", **SIZES}})
+    own = SIZES | {"slot_depth": "3.5 mm"}
+    known = paper.replacing({"motor": {"name": "CubeMars RI70 KV95", **own}})
     machine = resolve(known)
     assert drawn_motor(machine.motor)[0] is not None
     assert machine.layout.motor is None

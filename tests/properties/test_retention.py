@@ -332,6 +332,11 @@ def test_thin_walls_are_warned_of(machine: Machine) -> None:
     assert thin.status == "warn"
     # M4 through a hole of 4.5 mm.
     assert thin.value == pytest.approx(0.15)
+    out = replace(layout.housing, bolt_circle_radius=layout.housing.flange_radius - 2.1e-3)
+    broken = machine.changed({})
+    changed = replace(layout, housing=out)
+    vars(broken).update(layout=changed, parts=build_parts(machine.design, changed))
+    assert retention_lines(broken)[-1].status == "fail"
 
 
 @pytest.mark.parametrize("ring", [45, 60, 72, 100, 140])

@@ -30,13 +30,14 @@ from cqdd_design.sizing.kinds import (
     ranked,
 )
 from cqdd_design.sizing.known import answered, least_of, note
-from cqdd_design.sizing.looks import _asks_for_a_wider_ring, _calibrate, _drawn, read_spread
+from cqdd_design.sizing.looks import _asks_for_a_wider_ring, read_spread
 from cqdd_design.sizing.refine import Starts, climb
 from cqdd_design.sizing.refusals import nothing
 from cqdd_design.sizing.search import Search
 from cqdd_design.sizing.shafts import weak_lines
 from cqdd_design.sizing.spaces import FITS, MATERIALS, Space, _undominated, spaces
 from cqdd_design.sizing.stage_tables import stage_tables
+from cqdd_design.sizing.trial_gearboxes import calibrate, drawn_alike
 from cqdd_design.sizing.verified import (
     _PATIENCE,
     _better,
@@ -243,9 +244,9 @@ def test_what_yields_is_noted_as_a_share_of_what_does_not() -> None:
     machine = SimpleNamespace(design=SimpleNamespace(reducer=reducer, requirements=asks))
     drawn = [SimpleNamespace(values=np.full((4, 2), more)) for more in (3.0, 6.0)]
     hunt.rigid = machine, (np.array([2.0, 4.0]), np.array([2.0, 0.0]))  # type: ignore[assignment]
-    _calibrate(hunt, SimpleNamespace(design="another"), drawn)  # type: ignore[arg-type]
+    calibrate(hunt, SimpleNamespace(design="another"), drawn)  # type: ignore[arg-type]
     assert hunt.yielding is None
-    _calibrate(hunt, machine, drawn)  # type: ignore[arg-type]
+    calibrate(hunt, machine, drawn)  # type: ignore[arg-type]
     assert hunt.yielding is not None
     assert [one.tolist() for one in hunt.yielding] == [[1.5, 0.75], [3.0, 6.0]]
     assert hunt.yielding_at == (6e-3, 30.0, 4.0)
@@ -692,15 +693,17 @@ def test_discs_of_another_thickness_or_load_yield_otherwise(
         asked = SimpleNamespace(peak_torque=peak, continuous_torque=lasting)
         return SimpleNamespace(design=SimpleNamespace(reducer=reducer, requirements=asked))
 
-    monkeypatch.setattr("cqdd_design.sizing.looks.drawn_gearboxes", drawn)
-    monkeypatch.setattr("cqdd_design.sizing.looks.replace", lambda one, **_: one)
+    trial = "cqdd_design.sizing.trial_gearboxes."
+    monkeypatch.setattr(trial + "drawn_gearboxes", drawn)
+    monkeypatch.setattr(trial + "replace", lambda one, **_: one)
+    monkeypatch.setattr(trial + "needs_steel", lambda _: True)
     for thickness, told in ((6e-3, True), (7e-3, False), (9e-3, True), (8e-3, False)):
         bodies.clear()
-        _drawn(hunt, machine(thickness))
+        drawn_alike(hunt, machine(thickness))
         assert any(bodies) is told
     for torques, told in (((33.0, 9.0), False), ((33.0, 7.5), True), ((25.0, 7.0), True)):
         bodies.clear()
-        _drawn(hunt, machine(8e-3, *torques))
+        drawn_alike(hunt, machine(8e-3, *torques))
         assert any(bodies) is told
 
 
