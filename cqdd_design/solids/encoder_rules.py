@@ -25,7 +25,7 @@ _MAGNETS = (3.0, 4.0, 5.0, 6.0)
 """Diameters of diametric encoder magnets, mm; they are half as high, 2.5 mm at the most. Sensors on
 the axis are made for 6 x 2.5 mm (`encoders.csv`); a shaft too thin for it takes a smaller one."""
 RING_WALL, RING_HEIGHT = 3.5e-3, 4.0e-3
-"""Section of a ring magnet of NdFeB N35: on stubs up to 24 mm it puts 30 to 150 mT on the sensor
+"""Section of a ring magnet of NdFeB N35H: on stubs up to 24 mm it puts 30 to 150 mT on the sensor
 beside it, what MagAlpha sensors ask for (MPS, MA700 data sheet, 2014)."""
 _BOND = 25e-6
 """Radial gap of its bond on the stub, m."""

@@ -40,7 +40,7 @@ from cqdd_design.solids.selection import CapScrew
 COVER_SCREW = "motor cover screw"
 STATOR_MATERIAL = "Electrical steel M400-50A"
 MAGNET_MATERIAL = "NdFeB N42"
-ENCODER_MAGNET_MATERIAL = "NdFeB N35"
+ENCODER_MAGNET_MATERIAL = "NdFeB N35H"
 BOARD_MATERIAL = "FR-4 glass epoxy"
 
 _ROTOR_SHARE, LEAST_STATOR = 0.4, 0.05

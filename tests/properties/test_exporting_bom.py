@@ -112,7 +112,7 @@ def test_bought_parts_can_be_ordered(rows):
     assert by_part["cam bearing"]["designation"] in bearings()
     assert by_part["shoulder screw"]["designation"].startswith("shoulder screw 4 f9")
     assert by_part["motor stator"]["designation"] == "CubeMars RO100 Lite KV55"
-    assert by_part["encoder magnet"]["designation"] == "Radial Magnets 9042"
+    assert by_part["encoder magnet"]["designation"] == "ams AS5000-MD6H-2"
     known = catalogue_designations()
     for row in rows:
         if row["make_or_buy"] == "buy" and row["part"] != "motor rotor":

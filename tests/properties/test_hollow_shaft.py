@@ -310,5 +310,5 @@ def test_a_refusal_names_the_bore_beside_torque_and_space() -> None:
 def test_an_encoder_s_magnet_is_of_what_its_designation_says(machines: dict[str, Machine]) -> None:
     for machine in (machines[name] for name in DRAWN):
         magnet, *_ = encoder_parts(machine.design, end_of(machine), "Alloy steel 12.9 (ISO 7379)")
-        assert magnet.material == "NdFeB N35"
+        assert magnet.material == "NdFeB N35H"
         assert magnet.material in magnet.designation
