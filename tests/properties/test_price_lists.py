@@ -71,7 +71,7 @@ def test_what_is_ordered_to_a_size_is_known_by_its_pattern() -> None:
         "iso 4762 m3 x 37 - 12.9",
         "shim rings 61.2 x 66, cut from strip",
         "diametric magnet ndfeb n35h 5 x 2.5 mm",
-        "ring magnet ndfeb n35, magnetised across, 16 x 10 x 3 mm",
+        "ring magnet ndfeb n35h, magnetised across, 16 x 10 x 3 mm",
     ):
         assert is_to_size(key)
         assert not is_to_size(key[:-1])
