@@ -29,7 +29,7 @@ MOST_ROWS = 10_000_000
 """A day at 100 Hz, and some."""
 MOST_TORQUE, MOST_SPEED = 1e5, 1e4
 """N m and rad/s: a robot joint, not a mill; the bounds of a step of `duty`."""
-_IN_BRACKETS = re.compile(r"([^\[(]*)[\[(](.*?)[\])]?")
+_IN_ROUND = re.compile(r"(\w+)\s*\(([^()]*)\)")
 _PIECE = 100_000
 _BYTES = 1 << 20
 _LONGEST_LINE = 100_000
@@ -210,13 +210,16 @@ def _example(quantity: str, dimension: Dimension, head: list[str]) -> str:
 
 
 def _split(heading: str) -> tuple[str, str]:
-    """Name and unit of a heading such as ``speed [rad/s]`` or ``speed (rad/s)``."""
-    found = _IN_BRACKETS.fullmatch(heading.strip())
-    return (found[1].strip(), found[2].strip()) if found else (heading.strip(), "")
+    """Name and unit of a heading such as ``speed [rad/s]``."""
+    name, bracket, rest = heading.strip().partition("[")
+    return name.strip(), rest.rstrip("] ").strip() if bracket else ""
 
 
 def _usual(heading: str, quantity: str) -> tuple[str, str]:
-    """The same, of ``speed_rpm`` too where speed is looked for."""
+    """The same, of ``speed (rpm)`` and ``speed_rpm`` too where speed is looked for."""
+    found = _IN_ROUND.fullmatch(heading)
+    if found and found[1].lower() in _NAMES[quantity][1]:
+        return found[1], found[2]
     for name in _NAMES[quantity][1]:
         for ending, unit in _ENDINGS[quantity].items():
             if heading.lower() == name + ending:

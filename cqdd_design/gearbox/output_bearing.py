@@ -27,6 +27,8 @@ _ROLLER_STATIC, _ROLLER_SHARES, _ROLLER_SWITCH = 0.44, ((1.0, 0.45), (0.67, 0.67
 _BALL_MOMENT = 4.37
 _BALL_RADIAL = 0.56
 _THIN_SHARE, _STURDY_SHARE = 0.25, 0.5
+_SMALL = 12e-3
+"""Bore up to which balls of any series count as thin, m."""
 _STURDY = re.compile(r"\b6[2-4]\d")
 """Designations of deep-groove balls of the diameter series 2 to 4."""
 _BALL_SHARES = (
@@ -86,7 +88,8 @@ def static_safety(bearing: Bearing, load: OutputLoad) -> float:
 
 def axial_share(bearing: Bearing) -> float:
     """Share of a ball bearing's static rating that it takes along the axis."""
-    return _STURDY_SHARE if _STURDY.search(bearing.designation) else _THIN_SHARE
+    sturdy = _STURDY.search(bearing.designation) and bearing.bore_diameter > _SMALL
+    return _STURDY_SHARE if sturdy else _THIN_SHARE
 
 
 def dynamic_load(bearing: Bearing, load: OutputLoad) -> FloatArray:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import permutations
 
 import numpy as np
 
@@ -41,10 +42,10 @@ class WarmCycle:
     @cached_property
     def extremes(self) -> FloatArray:
         """Temperatures (M, N) at the moments when parts are hottest or most unlike, deg C."""
-        fitted = self.temperature[:, [NODES.index(node) for node in _FITTED]]
-        apart = fitted[:, :, None] - fitted[:, None, :]
-        looked = np.concatenate([fitted, apart.reshape(len(fitted), -1)], axis=1)
-        return np.asarray(self.temperature[np.unique(looked.argmax(axis=0))])
+        fitted = [self.temperature[:, NODES.index(node)] for node in _FITTED]
+        found = {int(one.argmax()) for one in fitted}
+        found |= {int((one - other).argmax()) for one, other in permutations(fitted, 2)}
+        return np.asarray(self.temperature[sorted(found)])
 
     def to_dict(self) -> dict[str, object]:
         """Return the JSON form, some hundred times of the cycle and the hottest."""

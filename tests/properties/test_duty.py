@@ -59,6 +59,8 @@ def written(tmp_path: Path, text: str, name: str = "knee.csv") -> Path:
          "2000,3,9.549296585513721,20\n", None),
         ("time (s),torque (N*m),velocity (deg/s)\n0,3,90\n0.5,-4,0\n2,3,57.29577951308232\n",
          None),
+        ("time (s),torque (knee) [N*m],speed [deg/s]\n0,3,90\n0.5,-4,0\n2,3,57.29577951308232\n",
+         DutyColumns(torque="torque (knee)")),
     ],
 )  # fmt: skip
 def test_columns_of_any_name_order_and_unit_are_read(tmp_path, text, columns):

@@ -171,7 +171,10 @@ def test_thin_balls_take_a_quarter_of_their_rating_along_the_axis() -> None:
     rating = row.static_rating or 0.0
     alone = OutputLoad(NONE, NONE + 0.25 * rating, NONE)
     assert static_safety(row, alone) == pytest.approx(1.0)
-    assert axial_share(find_bearing("SKF * 6200")) == 0.5
+    assert axial_share(replace(find_bearing("6008"), designation="6208")) == 0.5
+    assert axial_share(find_bearing("6008")) == 0.25
+    # Series 2, and small.
+    assert axial_share(find_bearing("SKF * 6200")) == 0.25
     # A moment counts by the axial force of its most loaded ball.
     pitch = 0.5 * (row.bore_diameter + row.outer_diameter)
     tilted = OutputLoad(NONE, NONE, NONE + 0.25 * rating * pitch / 4.37)
