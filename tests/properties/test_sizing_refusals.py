@@ -6,9 +6,12 @@ import numpy as np
 import pytest
 from brute_search import Space, strongest
 
+from cqdd_design.catalog import find_motor
 from cqdd_design.design import requirements_from_mapping
+from cqdd_design.errors import DesignError
 from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.kinds import lightest
+from cqdd_design.sizing.nearest import size_or_nearest
 from cqdd_design.sizing.refusals import nothing
 from cqdd_design.sizing.spaces import FITS
 from cqdd_design.sizing.stage_tables import stage_tables
@@ -73,6 +76,16 @@ def test_what_was_learnt_for_some_torques_is_not_said_of_any(learnt, words, bind
         "10 fits in a 29 mm ring and 10 mm of length at any torque"
         in refused(outer_diameter="29 mm").message
     )
+
+
+def test_a_motor_of_which_too_little_is_known_is_refused_before_a_search() -> None:
+    """What is not known of it keeps every verdict from a yes, and is named."""
+    said: list[str] = []
+    asked = requirements_from_mapping({"ratio": 10})
+    with pytest.raises(DesignError, match="not known of it are drag") as caught:
+        size_or_nearest(asked, said.append, motor=find_motor("CubeMars RI100 KV105"))
+    assert "--quick" in caught.value.message
+    assert said == []
 
 
 def test_a_refusal_speaks_of_what_was_asked():

@@ -14,10 +14,11 @@ from cqdd_design.machine import Machine, resolve
 from cqdd_design.results import Check
 from cqdd_design.sizing import verified
 from cqdd_design.sizing.hunt import Hunt
-from cqdd_design.sizing.shafts import stronger_shaft, turn_to_less_throw
+from cqdd_design.sizing.shafts import SHAFT, stronger_shaft, turn_to_less_throw, weak_lines
 from cqdd_design.sizing.spaces import USUAL_FIT, Space
 from cqdd_design.sizing.stage_tables import stage_tables
 from cqdd_design.verdict.joint_lines import bell_line
+from cqdd_design.verdict.retention_lines import retention_lines, shoulder_on_shaft
 from cqdd_design.verdict.shaft_lines import shaft_lines
 
 GALLERY = Path(__file__).resolve().parents[2] / "docs" / "gallery"
@@ -116,3 +117,20 @@ def test_it_is_tried_where_no_wider_cam_bearing_leads_to_a_design(
     assert verified._again(hunt, SimpleNamespace()) == "a design"
     assert throws[0] == math.inf
     assert throws[1] < machine.design.reducer.eccentricity
+
+
+def test_low_shoulders_beside_the_shafts_bearings_ask_for_a_wider_cam_bearing(
+    machine: Machine, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Found in the last verdict alone they ended a search that one wider cam bearing would have."""
+    line = next(one for one in retention_lines(machine) if one.id == "RETENTION-SHOULDER")
+    there = shoulder_on_shaft(machine)
+    assert there is None or there == line
+    low = replace(line, value=0.5 * line.compared[1])
+    assert low.status == "fail"
+    assert low.id in SHAFT
+    before = weak_lines(machine)
+    monkeypatch.setattr("cqdd_design.sizing.shafts.shoulder_on_shaft", lambda _: low)
+    assert weak_lines(machine) == (*before, low)
+    monkeypatch.setattr("cqdd_design.sizing.shafts.shoulder_on_shaft", lambda _: line)
+    assert weak_lines(machine) == before

@@ -145,6 +145,13 @@ def test_parts_are_judged_at_their_hottest_of_a_duty(shifts: Machine) -> None:
     assert clearance.known
 
 
+def test_grease_bears_what_its_lubricant_does(light: Machine) -> None:
+    for lubricant, most in (("SKF LGLT 2", 110.0), ("NLGI 2 grease", 120.0)):
+        machine = light.changed({"reducer.friction.lubricant": lubricant})
+        told = heat_checks(machine_temperatures(machine))[0].substituted
+        assert f" of {most:g}" in told.partition("grease at")[2].partition(",")[0]
+
+
 def test_a_quick_cycle_has_no_state_of_its_own(warm: MachineTemperatures) -> None:
     swing = np.array([[0.0], [0.1], [0.2]])
     quick = WarmCycle(np.arange(3.0), warm.steady + swing)
