@@ -229,7 +229,6 @@ def test_statistics_are_those_of_the_values() -> None:
     assert result.solves == 40 * 2 * 88
 
 
-@pytest.mark.deep
 def test_angles_too_few_for_a_figure_are_warned_of() -> None:
     """Below one a tooth forces and ripple are missed, on the side that misleads."""
     few, enough = (run_ensemble(make_ensemble(paper(), angles=n), 4) for n in (44, 110))
@@ -238,6 +237,7 @@ def test_angles_too_few_for_a_figure_are_warned_of() -> None:
     assert not any("a tooth" in one for one in enough.warnings)
 
 
+@pytest.mark.deep
 def test_memory_stays_flat() -> None:
     ensemble = make_ensemble(paper(), angles=44)
     run_ensemble(ensemble, 250, sensitivity=False)
