@@ -45,7 +45,7 @@ def test_outer_rings_that_the_load_turns_in_are_held(machine: Machine) -> None:
 
 def test_an_inrunner_cover_goes_on_when_its_hub_has_been_set() -> None:
     """Its height is measured from the face that the cover closes, with the shaft in it."""
-    design = load_design(TOP / "designs" / "cqdd-10.toml")
+    design = load_design(TOP / "docs" / "gallery" / "efficient-10.toml")
     own = {"name": "CubeMars RI80 V2.0 KV75", "slot_depth": "9 mm"}
     machine = resolve(design.replacing({f"motor.{key}": value for key, value in own.items()}))
     steps, whole = taken_apart(machine.design, machine.parts)
