@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from cqdd_design.catalog.lubricants import find_lubricant
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design
 from cqdd_design.gearbox.balance import StackBalance
@@ -127,7 +128,12 @@ def analyse_gearbox(
         # The rigid law's sense is the drive's; a torque on the carrier loads the other flanks.
         series=replace(rigid_series(stages, -shown.torque, crank), torque=shown.torque),
         checks=(*shape_checks(state), *load_checks(state), *runner_checks(state), *drive),
-        warnings=(*_valley_warning(state), *_raceway_warning(state), *warnings),
+        warnings=(
+            *_valley_warning(state),
+            *_raceway_warning(state),
+            *_cold_warning(design),
+            *warnings,
+        ),
     )
 
 
@@ -148,4 +154,17 @@ def _raceway_warning(state: GearboxState) -> tuple[str, ...]:
     return (
         f"cam bearing '{bearing.designation}' runs on the eccentric itself: harden the shaft to "
         f"{HARDENED_HRC:g} HRC and grind it, or the ratings do not hold.",
+    )
+
+
+def _cold_warning(design: Design) -> tuple[str, ...]:
+    """A start that is colder than the lubricant works: no line judges its drag."""
+    lubricant = find_lubricant(design.reducer.friction.lubricant)
+    coldest = design.environment.coldest
+    if coldest >= lubricant.coldest:
+        return ()
+    return (
+        f"environment.coldest {coldest:g} degC is below the {lubricant.coldest:g} degC down to "
+        f"which {lubricant.name} works: how it drags there is judged by no line; choose another "
+        "reducer.friction.lubricant, or warm the machine before it starts.",
     )

@@ -152,6 +152,13 @@ def test_grease_bears_what_its_lubricant_does(light: Machine) -> None:
         assert f" of {most:g}" in told.partition("grease at")[2].partition(",")[0]
 
 
+def test_a_start_colder_than_the_lubricant_works_is_warned_of(light: Machine) -> None:
+    cold = light.changed({"environment.coldest": "-40 degC"})
+    (told,) = (one for one in cold.analysis.warnings if "environment.coldest" in one)
+    assert "-40 degC is below the -30 degC down to which NLGI 2 grease works" in told
+    assert not any("environment.coldest" in one for one in light.analysis.warnings)
+
+
 def test_a_quick_cycle_has_no_state_of_its_own(warm: MachineTemperatures) -> None:
     swing = np.array([[0.0], [0.1], [0.2]])
     quick = WarmCycle(np.arange(3.0), warm.steady + swing)
