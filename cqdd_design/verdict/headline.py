@@ -162,33 +162,33 @@ def _life(evidence: Evidence, by_id: dict[str, Check], every: Sequence[Check]) -
     machine = evidence.machine
     lines = [by_id[one] for one in _LIFE_LINES if one in by_id]
     status: Status = "unknown" if any(not line.known for line in lines) else "pass"
-    title, share = "life", machine.design.requirements.yield_share
     try:
         life = machine.life
     except ContactError:
-        return Figure("life", title, None, "h", None, "unknown", DUTY_MODEL)
+        return Figure("life", "life", None, "h", None, "unknown", DUTY_MODEL)
     hours = {part.part: part.hours for part in life.parts}
     hours["cam bearings together"] = life.cam.set_hours
     hours |= {one.name: one.set_hours for one in life.runners}
     for name, words in (("SUPPORT-LIFE", "shaft bearings"), ("OUTPUT-LIFE", "output bearing")):
         hours[words] = by_id[name].value
-    drawn = drawn_cam_hours(machine, evidence.drawn, every)
-    if drawn is None:
-        title += " of perfect parts"
-    else:
-        told = f"of {100.0 * share:g} % of the gearboxes"
-        name = f"cam bearings, under the greatest load over the turn {told}, drawn from tolerances"
-        hours = {part: value for part, value in hours.items() if "cam bearing" not in part}
-        hours[name] = drawn
-        title += f" {told}"
+    drawn, told = drawn_cam_hours(machine, evidence.drawn, every), "of perfect parts"
+    cams = {part for part in hours if "cam bearing" in part}
+    if drawn is not None:
+        told = f"of {100.0 * machine.design.requirements.yield_share:g} % of the gearboxes"
+        worst = f"cam bearings, under the greatest load over the turn {told}, drawn from tolerances"
+        hours = {part: value for part, value in hours.items() if part not in cams}
+        hours[worst] = drawn
+        cams = {worst}
     ended = {part: value for part, value in hours.items() if value is not None}
     first = min(ended, key=lambda part: ended[part], default="")
     value = ended.get(first, ENDLESS)
     if value < life.required_hours * (1.0 - 1e-9):
         status = "fail"
     basis = f"{first}: {DUTY_MODEL}" if first else DUTY_MODEL
-    if drawn is not None and first == name:
-        basis = name
+    if drawn is not None and first in cams:
+        basis = first
+    # Other parts are perfect ones.
+    title = f"life {told}" if first in cams else "life"
     shown = None if status == "unknown" else value
     return Figure("life", title, shown, "h", life.required_hours, status, basis)
 
