@@ -248,9 +248,10 @@ def test_a_search_ends_in_steel_where_aluminium_presses(of_aluminium, warm, monk
 
     def judged(one: Machine):
         seen.append(one.stiff)
-        return warm, (), ()
+        return warm
 
-    monkeypatch.setattr("cqdd_design.sizing.plates.judged_temperatures", judged)
+    known = "cqdd_design.sizing.plates.known_temperatures"
+    monkeypatch.setattr(known, judged)
     assert steel_helps(of_aluminium, warm)
     sized = SizedDesign(of_aluminium.design, (), (), None, of_aluminium)
     found = Found(None, None, {}, sized, None, True)
@@ -263,7 +264,7 @@ def test_a_search_ends_in_steel_where_aluminium_presses(of_aluminium, warm, monk
     assert with_sound_plate(steel) is steel
     assert seen == [True]
     cool = replace(warm, steady=np.full_like(warm.steady, 20.0))
-    monkeypatch.setattr("cqdd_design.sizing.plates.judged_temperatures", lambda _: (cool, (), ()))
+    monkeypatch.setattr(known, lambda _: cool)
     assert with_sound_plate(found) is found
-    monkeypatch.setattr("cqdd_design.sizing.plates.judged_temperatures", lambda _: (None, (), ()))
+    monkeypatch.setattr(known, lambda _: None)
     assert with_sound_plate(found) is found
