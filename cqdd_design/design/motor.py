@@ -19,7 +19,6 @@ gives the rest::
 from __future__ import annotations
 
 import dataclasses
-import itertools
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -34,6 +33,7 @@ from cqdd_design.catalog.motors import (
     torque_constant_from,
 )
 from cqdd_design.design.fields import FreeText, FrozenModel, MotorName, Whole, default
+from cqdd_design.design.motor_sizes import not_inside
 from cqdd_design.design.problems import describe_problems
 from cqdd_design.errors import CatalogError, DesignError, shown
 from cqdd_design.files import parse_toml, read_text_file, refuse_extremes
@@ -437,28 +437,3 @@ def _name_in_catalogue(name: str) -> str:
         return find_motor(name).name
     except CatalogError:
         return ""
-
-
-def not_inside(motor: MotorData | Motor) -> str:
-    """What is wrong with sizes that must lie inside one another; empty of sound ones."""
-    inrunner = "inrunner" in (motor.kind or "")
-    outside = ("bore_diameter", "gap_diameter", "outer_diameter")
-    chains: list[tuple[str, ...]] = [("hollow_diameter", *outside[1:]) if inrunner else outside]
-    chains += [("stack_length", "length"), ("rotor_length", "length")]
-    for names in chains:
-        known = [(name, value) for name in names if (value := getattr(motor, name)) is not None]
-        for (inner, less), (outer, more) in itertools.pairwise(known):
-            if less > more or (less == more and len(names) > 2):
-                return (
-                    f"{inner} {format_quantity(less, LENGTH)} is not inside {outer} "
-                    f"{format_quantity(more, LENGTH)}; check both"
-                )
-    inner, outer = ("gap_diameter", "outer_diameter") if inrunner else outside[:2]
-    less, more, depth = (getattr(motor, name) for name in (inner, outer, "slot_depth"))
-    if less is None or more is None or depth is None or 2.0 * depth < more - less:
-        return ""
-    return (
-        f"slot_depth {format_quantity(depth, LENGTH)} does not fit between {inner} "
-        f"{format_quantity(less, LENGTH)} and {outer} {format_quantity(more, LENGTH)}, which leave "
-        f"{format_quantity(0.5 * (more - less), LENGTH)}; check them"
-    )

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from typing import Any
 
 from cqdd_design.catalog.motors import DRAG, Motor, find_bare_motor
-from cqdd_design.design.motor import NAMELESS, MotorFile, MotorTable, not_inside
+from cqdd_design.design.motor import NAMELESS, MotorFile, MotorTable
+from cqdd_design.design.motor_sizes import not_inside, refuse_heavy_rotor
 from cqdd_design.errors import DesignError
 
 IN_DESIGN = "design: its [motor]"
@@ -58,7 +58,7 @@ def motor_row(table: MotorTable, place: str = IN_DESIGN) -> Motor:
     wrong = not_inside(found)
     if wrong:
         raise DesignError(f"motor {found.name}: {wrong}.")
-    _refuse_heavy_rotor(found)
+    refuse_heavy_rotor(found)
     return found
 
 
@@ -119,36 +119,5 @@ _NOTHING: dict[str, Any] = {
     for field in dataclasses.fields(Motor)
     if field.default is dataclasses.MISSING
 }
-_IRON = 7900.0
-"""Density of solid iron, kg/m^3, above that of magnets."""
 _UNKNOWN = Motor(**(_NOTHING | {"kind": "own", "torque_at": "motor"}))
 """A motor of which nothing is known."""
-
-
-def _refuse_heavy_rotor(motor: Motor) -> None:
-    """Refuse a rotor with more inertia than the whole motor as a thin ring, or of solid iron."""
-    _refuse_dense_rotor(motor)
-    if motor.rotor_inertia is None or motor.mass is None or motor.outer_diameter is None:
-        return
-    most = motor.mass * (0.5 * motor.outer_diameter) ** 2
-    if motor.rotor_inertia > most:
-        raise DesignError(
-            f"motor {motor.name}: rotor_inertia {motor.rotor_inertia:.4g} kg m^2 is more than "
-            f"{motor.mass:g} kg within {1e3 * motor.outer_diameter:.4g} mm can have, {most:.3g} "
-            "kg m^2; check both."
-        )
-
-
-def _refuse_dense_rotor(motor: Motor) -> None:
-    """Refuse an inrunner's rotor that its sizes have no room for."""
-    inner, outer, long = motor.hollow_diameter, motor.gap_diameter, motor.rotor_length
-    if not (motor.is_inrunner and inner and outer and long and motor.rotor_inertia):
-        return
-    # J = pi/32 rho l (D^4 - d^4)
-    most = math.pi / 32.0 * _IRON * long * (outer**4 - inner**4)
-    if motor.rotor_inertia > most:
-        raise DesignError(
-            f"motor {motor.name}: rotor_inertia {motor.rotor_inertia:.4g} kg m^2 is more than iron "
-            f"between {1e3 * inner:.4g} and {1e3 * outer:.4g} mm over {1e3 * long:.4g} mm has, "
-            f"{most:.3g} kg m^2; check hollow_diameter, gap_diameter and rotor_length too."
-        )

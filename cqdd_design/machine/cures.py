@@ -27,7 +27,7 @@ ROUGHLY = 5e-3
 """The same where a look costs much."""
 SEARCHED_CASES = 8
 """Cases of a duty up to which a share of its torques is looked for."""
-_A_LITTLE_LESS = 0.99
+_A_LITTLE_LESS = 0.997
 _FARTHEST = 8.0
 """By how much a torque is changed at once."""
 

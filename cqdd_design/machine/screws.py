@@ -135,11 +135,16 @@ def screw_joints(machine: Machine) -> tuple[ScrewJoint, ...]:
         _motor_cover(machine),
     ]
     coldest = machine.design.environment.coldest
-    return tuple(
-        replace(one, clamping=replace(one.clamping, coldest=coldest))
-        for one in every
-        if one is not None
-    )
+    return tuple(_in_the_cold(one, coldest) for one in every if one is not None)
+
+
+def _in_the_cold(joint: ScrewJoint, coldest: float) -> ScrewJoint:
+    """The joint at the coldest it meets (deg C), and what helps where that leaves no preload."""
+    clamping = replace(joint.clamping, coldest=coldest)
+    if clamping.least_preload > 0.0 or joint.clamping.least_preload <= 0.0:
+        return replace(joint, clamping=clamping)
+    cure = f"take a material that shrinks less, for cold of {coldest:g} degC takes all its preload"
+    return replace(joint, clamping=clamping, cure=cure)
 
 
 def _unloaded(screws: Tightened | None) -> ScrewJoint | None:

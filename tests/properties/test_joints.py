@@ -244,6 +244,17 @@ def test_screws_of_a_machine_are_judged_at_its_coldest(machine: Machine) -> None
         assert replace(one.clamping, coldest=-40.0).least_preload <= one.clamping.least_preload
 
 
+def test_preload_that_cold_takes_whole_asks_for_another_material(machine: Machine) -> None:
+    """Less force on the joint would not help it."""
+    moulded = {"housing.material": "POM (acetal)"}
+    cold = machine.changed(moulded | {"environment.coldest": "-40 degC"})
+    cover = screw_joints(cold)[0]
+    assert cover.clamping.least_preload == 0.0
+    assert "shrinks less, for cold of -40 degC takes all" in cover.cure
+    room = machine.changed(moulded | {"environment.coldest": "20 degC"})
+    assert "shrinks less" not in screw_joints(room)[0].cure
+
+
 def test_no_more_of_a_hub_carries_than_two_diameters(machine: Machine) -> None:
     motor = machine.layout.motor_end
     assert motor is not None
