@@ -246,7 +246,7 @@ class MotorData(FrozenModel):
             raise ValueError("mass is that of rotor and stator; keep it, or keep both of them")
         if (self.rotor_mass is None) != (self.stator_mass is None):
             raise ValueError("rotor_mass and stator_mass add up to the mass; give both, or mass")
-        told = not_inside(self)
+        told = not_inside(vars(self))
         if told:
             raise ValueError(told)
         return self

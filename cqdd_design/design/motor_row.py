@@ -55,7 +55,7 @@ def motor_row(table: MotorTable, place: str = IN_DESIGN) -> Motor:
         source=place if base is None else f"{place}, over the catalogue's {base.name}",
         drag_source=place if measured else drag,
     )
-    wrong = not_inside(found)
+    wrong = not_inside(vars(found))
     if wrong:
         raise DesignError(f"motor {found.name}: {wrong}.")
     refuse_heavy_rotor(found)

@@ -4,27 +4,25 @@ from __future__ import annotations
 
 import itertools
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import Any
 
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.errors import DesignError
 from cqdd_design.units import LENGTH, format_quantity
 
-if TYPE_CHECKING:
-    from cqdd_design.design.motor import MotorData
-
 _IRON = 7900.0
 """Density of solid iron, kg/m^3, above that of magnets."""
 
 
-def not_inside(motor: MotorData | Motor) -> str:
-    """What is wrong with sizes that must lie inside one another; empty of sound ones."""
-    inrunner = "inrunner" in (motor.kind or "")
+def not_inside(motor: Mapping[str, Any]) -> str:
+    """What is wrong with sizes (m, by key) that must lie inside one another; empty of sound ones."""
+    inrunner = "inrunner" in (motor["kind"] or "")
     outside = ("bore_diameter", "gap_diameter", "outer_diameter")
     chains: list[tuple[str, ...]] = [("hollow_diameter", *outside[1:]) if inrunner else outside]
     chains += [("stack_length", "length"), ("rotor_length", "length")]
     for names in chains:
-        known = [(name, value) for name in names if (value := getattr(motor, name)) is not None]
+        known = [(name, value) for name in names if (value := motor[name]) is not None]
         for (inner, less), (outer, more) in itertools.pairwise(known):
             if less > more or (less == more and len(names) > 2):
                 return (
@@ -32,7 +30,7 @@ def not_inside(motor: MotorData | Motor) -> str:
                     f"{format_quantity(more, LENGTH)}; check both"
                 )
     inner, outer = ("gap_diameter", "outer_diameter") if inrunner else outside[:2]
-    less, more, depth = (getattr(motor, name) for name in (inner, outer, "slot_depth"))
+    less, more, depth = (motor[name] for name in (inner, outer, "slot_depth"))
     if less is None or more is None or depth is None or 2.0 * depth < more - less:
         return ""
     return (
