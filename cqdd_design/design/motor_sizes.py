@@ -16,7 +16,7 @@ _IRON = 7900.0
 
 
 def not_inside(motor: Mapping[str, Any]) -> str:
-    """What is wrong with sizes (m, by key) that must lie inside one another; empty of sound ones."""
+    """What is wrong with sizes (m, by key) that must lie in one another; empty of sound ones."""
     inrunner = "inrunner" in (motor["kind"] or "")
     outside = ("bore_diameter", "gap_diameter", "outer_diameter")
     chains: list[tuple[str, ...]] = [("hollow_diameter", *outside[1:]) if inrunner else outside]
