@@ -58,6 +58,8 @@ MOST_HUB = 2.0
 """Length of a bonded hub over its diameter: beyond, only its ends carry."""
 _LEAST_WALL = 0.5e-3
 """Inside the threads of the cover's ears, m."""
+_STYLUS = 5.5e-3
+"""Between the flange and heads of screws, m: there an indicator's lever stands on the flange."""
 _CIRCUIT = (
     ("outer_diameter", "outside diameter"),
     ("gap_diameter", "diameter of the air gap"),
@@ -258,8 +260,11 @@ def lay_out_motor(
     wall = 1.6 * unit
     thread = thread_size(3.0 * unit)
     clearance = 0.55 * thread
-    circle = inner + max(wall + 0.3 * clearance, 0.5 * thread + _LEAST_WALL)
     head = cap_screw(thread, 0.0).head_diameter
+    circle = max(
+        inner + max(wall + 0.3 * clearance, 0.5 * thread + _LEAST_WALL),
+        housing.flange_radius + _STYLUS + 0.5 * head,
+    )
     ear_height = 2.0 * thread
     flange = min(3.0 * unit, pack.top - housing.flange_bottom)
     # Over the bell, whose ring ends a unit and a half below the flange.
