@@ -25,6 +25,7 @@ from cqdd_design.machine.temperatures import (
 from cqdd_design.results import Check
 from cqdd_design.verdict.drawn import Drawn, drawn_gearboxes
 from cqdd_design.verdict.motor import lasting_speed_of
+from cqdd_design.verdict.remembered import remembered
 
 Progress = Callable[[str], None]
 _HeatTold = tuple[MachineTemperatures | None, tuple[Check, ...], tuple[str, ...]]
@@ -147,7 +148,8 @@ def _heat(machine: Machine) -> _HeatTold:
     if warm is None or machine.stiff or checks[0].status != "fail":
         return warm, checks, told
     duty = bool(machine.design.requirements.load_cases)
-    remedy = cooling_remedy(enough_cooling(warm), duty=duty)
+    enough = remembered("cooling", machine, warm, (), lambda: enough_cooling(warm))
+    remedy = cooling_remedy(enough, duty=duty)
     return warm, (replace(checks[0], remedy=remedy), *checks[1:]), told
 
 
@@ -172,16 +174,20 @@ def _lasting(
         return most
     # Where clearances are not known, temperatures alone decide.
     ways = (True, False) if checks[1].known else (False,)
-    try:
+
+    def find() -> float:
         for free in ways:
             told = {asked.continuous_torque: margin_of(warm, free=free)} if steady else {}
             found = lasting_torque(machine, most, speed, told, free=free)
             # Parts that press under any torque do so for other reasons.
             if found > 0.0:
                 return found
+        return 0.0
+
+    try:
+        return remembered("lasting torque", machine, warm, (most, speed, *ways), find)
     except (ContactError, DesignError, GeometryError):
         return None
-    return 0.0
 
 
 def _drawn(
