@@ -11,6 +11,7 @@ from cqdd_design.sizing.bearable import weaker
 from cqdd_design.sizing.finish import finish
 from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.search import Search
+from cqdd_design.sizing.shafts import with_sound_ends
 from cqdd_design.sizing.spaces import Found
 
 LITTLE, MUCH = 0.9, 0.7
@@ -44,4 +45,5 @@ def given(hunt: Hunt, found: Found) -> Found | None:
     sized = finish(search.evaluator, point, 0)
     if sized is None or not np.array_equal(point.steps, found.point.steps):
         return None
-    return replace(found, space=space, search=search, sized=sized, point=point)
+    # Bearings at the shaft's ends are chosen with its design, and not among what it is made of.
+    return with_sound_ends(replace(found, space=space, search=search, sized=sized, point=point))

@@ -9,13 +9,15 @@ from types import SimpleNamespace
 
 import pytest
 
-from cqdd_design.design import load_design
+from cqdd_design.design import load_design, requirements_from_mapping
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.results import Check
 from cqdd_design.sizing import verified
+from cqdd_design.sizing.agreement import agreed
+from cqdd_design.sizing.eased import given
 from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.shafts import SHAFT, stronger_shaft, turn_to_less_throw, weak_lines
-from cqdd_design.sizing.spaces import USUAL_FIT, Space
+from cqdd_design.sizing.spaces import FITS, MATERIALS, USUAL_FIT, Space
 from cqdd_design.sizing.stage_tables import stage_tables
 from cqdd_design.verdict.joint_lines import bell_line
 from cqdd_design.verdict.retention_lines import retention_lines, shoulder_on_shaft
@@ -134,3 +136,17 @@ def test_low_shoulders_beside_the_shafts_bearings_ask_for_a_wider_cam_bearing(
     assert weak_lines(machine) == (*before, low)
     monkeypatch.setattr("cqdd_design.sizing.shafts.shoulder_on_shaft", lambda _: line)
     assert weak_lines(machine) == before
+
+
+def test_a_gearbox_for_less_torque_has_its_shafts_ends_looked_at_again() -> None:
+    """They are chosen with a design: made anew it has others, which may bear far too little."""
+    torques = {"peak_torque": "81 N*m", "continuous_torque": "13 N*m"}
+    less = requirements_from_mapping({"ratio": 16, "continuous_speed": "300 rpm", **torques})
+    hunt = Hunt(less, None, None, print, stage_tables(16), "mass", usual={})
+    space = Space(2, MATERIALS[1], MATERIALS[1], FITS[0], cam="6904")
+    found = agreed(hunt, space, None)
+    assert found is not None
+    again = given(hunt, replace(found, weak=()))
+    assert again is not None
+    assert again.weak == weak_lines(again.sized.machine)
+    assert [line.id for line in again.weak] == ["SUPPORT-STATIC"]
