@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+import numpy as np
+
 from cqdd_design.catalog.motors import COPPER_REFERENCE, MAGNET_COEFFICIENT, Motor
 from cqdd_design.design import Requirements
 from cqdd_design.design.actuator import Environment
@@ -12,7 +14,7 @@ from cqdd_design.design.motor import MotorTable
 from cqdd_design.sizing.able import PEAK
 from cqdd_design.sizing.infeasible import SizingInfeasibleError
 
-PEAK_LINE = "MOTOR-PEAK"
+PEAK_LINE, _DUTY_LINE = "MOTOR-PEAK", "DUTY-ENVELOPE"
 _RPM = 30.0 / math.pi
 
 
@@ -70,15 +72,22 @@ class MotorShortError(SizingInfeasibleError):
     ----------
     torque : float
         Of the motor's shaft at most, N m.
+    needed : float
+        Torque at the output that this is too little for, N m; 0 where it is enough.
     most_ratio : int or None
         At which its rotor alone is light enough; None where it is.
     """
 
     def __init__(
-        self, message: str, binding: tuple[str, ...], torque: float, most_ratio: int | None
+        self,
+        message: str,
+        binding: tuple[str, ...],
+        torque: float,
+        needed: float,
+        most_ratio: int | None,
     ) -> None:
         super().__init__(message, binding=binding, most_torque=None)
-        self.torque, self.most_ratio = torque, most_ratio
+        self.torque, self.needed, self.most_ratio = torque, needed, most_ratio
 
 
 def refuse_weak_motor(requirements: Requirements, motor: Motor, ambient: float | None) -> None:
@@ -90,33 +99,69 @@ def refuse_weak_motor(requirements: Requirements, motor: Motor, ambient: float |
     """
     most, ratio = reach(requirements, motor, ambient), requirements.ratio
     peak, fast = requirements.peak_torque, requirements.input_speed
-    told, binding = [], []
-    if PEAK not in requirements.derived and ratio * most.torque < peak:
-        why = "its own peak torque"
-        if motor.peak_torque is None or most.torque < motor.peak_torque:
-            why = f"{most.current:.4g} A"
-        binding.append(PEAK_LINE)
-        told.append(
-            f"{most.torque:.4g} N*m at the shaft ({why}) are {ratio * most.torque:.4g} of {peak:g} "
-            f"N*m at ratio {ratio} without any loss in the gearbox"
+    told, binding, needed = [], [], 0.0
+    why = "its own peak torque"
+    if motor.peak_torque is None or most.torque < motor.peak_torque:
+        why = f"{most.current:.4g} A"
+
+    def weak(torque: float, of: str) -> str:
+        return (
+            f"{most.torque:.4g} N*m at the shaft ({why}) are {ratio * most.torque:.4g} of {of}"
+            f"{torque:g} N*m at ratio {ratio} without any loss in the gearbox"
         )
+
+    def slow(speed: float, of: str) -> str:
+        return (
+            f"{most.voltage:g} V turn it at {most.speed * _RPM:.0f} of {of}{speed * _RPM:.0f} rpm "
+            "at most, warm and without load"
+        )
+
+    if PEAK not in requirements.derived and ratio * most.torque < peak:
+        binding.append(PEAK_LINE)
+        needed = peak
+        told.append(weak(peak, ""))
     if most.speed < fast:
         binding.append("MOTOR-SPEED")
-        told.append(
-            f"{most.voltage:g} V turn it at {most.speed * _RPM:.0f} of {fast * _RPM:.0f} rpm at "
-            "most, warm and without load"
-        )
+        told.append(slow(fast, ""))
+    driven, fastest = _driven(requirements)
+    beyond = []
+    if ratio * most.torque < driven:
+        needed = max(needed, driven)
+        beyond.append(weak(driven, "the duty's "))
+    if most.speed < ratio * fastest:
+        beyond.append(slow(ratio * fastest, "the duty's "))
+    if beyond:
+        binding.append(_DUTY_LINE)
+        told += beyond
     heavy, light_at = _heavier(requirements, motor)
     told += heavy.values()
     binding += heavy
     if told:
         raise MotorShortError(
             f"no gearbox makes motor '{motor.name}' do what is asked: {'; '.join(told)}. "
-            f"{_ways(binding)}, or take another motor (--motor any tries all of the catalogue).",
+            f"{_ways(binding, weak=needed > 0.0)}, or take another motor (--motor any tries all of the catalogue).",
             tuple(binding),
             most.torque,
+            needed,
             light_at,
         )
+
+
+def _driven(requirements: Requirements) -> tuple[float, float]:
+    """Greatest torque (N m) and speed (rad/s) at the output of a duty that the motor has to drive.
+
+    What brakes is held by friction as well, and may turn faster than a supply turns a motor.
+    """
+    log, steps = requirements.duty_log, requirements.duty
+    if log is None:
+        torque, speed = np.array([(one.torque, one.speed) for one in steps]).reshape(-1, 2).T
+    else:
+        torque, speed = log.torque, log.speed
+    driving = torque * speed >= 0.0
+    return (
+        float(np.abs(torque[driving]).max(initial=0.0)),
+        float(np.abs(speed[driving]).max(initial=0.0)),
+    )
 
 
 def _heavier(requirements: Requirements, motor: Motor) -> tuple[dict[str, str], int | None]:
@@ -137,14 +182,18 @@ def _heavier(requirements: Requirements, motor: Motor) -> tuple[dict[str, str], 
     return told, light_at
 
 
-def _ways(binding: list[str]) -> str:
+def _ways(binding: list[str], *, weak: bool) -> str:
     ways = []
-    if PEAK_LINE in binding:
+    if weak:
         ways += ["ask for less torque", "raise the ratio"]
+    elif _DUTY_LINE in binding:
+        ways += ["ask for a slower duty", "lower the ratio"]
     elif "MOTOR-SPEED" in binding:
         ways += ["ask for less"]
     if "REFLECTED-INERTIA" in binding:
-        ways += ["allow more inertia"] + ([] if PEAK_LINE in binding else ["lower the ratio"])
+        ways += ["allow more inertia"]
+        if not {"ask for less torque", "lower the ratio"} & set(ways):
+            ways.append("lower the ratio")
     if "MASS" in binding:
         ways += ["allow more mass"]
     return ", ".join(ways).capitalize()

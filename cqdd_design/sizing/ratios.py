@@ -10,7 +10,7 @@ from cqdd_design.design import Requirements
 from cqdd_design.design.requirements import LEAST_RATIO, MOST_RATIO
 from cqdd_design.sizing.able import EFFICIENCY
 from cqdd_design.sizing.hunt import Hunt
-from cqdd_design.sizing.motor_reach import PEAK_LINE, MotorShortError
+from cqdd_design.sizing.motor_reach import MotorShortError
 
 TRIES = 2
 """Ratios that are tried where the rotor is felt too much."""
@@ -44,18 +44,18 @@ def other_ratio(hunt: Hunt, refusal: MotorShortError, search: _Search) -> OtherR
         Whether a design is found at a ratio, and what it falls short of.
     """
     asked = hunt.requirements
-    if PEAK_LINE in refusal.binding:
+    if refusal.needed:
         hunt.say("looking for the least ratio that fits")
-        return _least(asked, refusal.torque, search)
+        return _least(asked, refusal, search)
     if refusal.most_ratio is not None:
         hunt.say("looking for the greatest ratio that fits")
         return _greatest(refusal.most_ratio, search)
     return OtherRatio(None, asked.ratio, ())
 
 
-def _least(asked: Requirements, shaft: float, search: _Search) -> OtherRatio:
-    """Of a motor with a torque at its shaft, N m: down from where it surely is strong enough."""
-    usual = math.ceil(asked.peak_torque / (EFFICIENCY * shaft))
+def _least(asked: Requirements, refusal: MotorShortError, search: _Search) -> OtherRatio:
+    """Of a motor that is too weak: down from where it surely is strong enough."""
+    usual = math.ceil(refusal.needed / (EFFICIENCY * refusal.torque))
     first = min(max(usual, asked.ratio + 1), MOST_RATIO)
     found = None
     for ratio in range(first, asked.ratio, -1):

@@ -207,6 +207,6 @@ def test_the_greatest_ratio_of_a_rotor_that_is_felt_too_much(most, fits, told, t
         seen.append(ratio)
         return ratio in fits, () if ratio in fits else ("YIELD",)
 
-    short = MotorShortError("no.", ("REFLECTED-INERTIA",), 8.0, most)
+    short = MotorShortError("no.", ("REFLECTED-INERTIA",), 8.0, 0.0, most)
     assert tuple(other_ratio(new(), short, search)) == told
     assert seen == tried

@@ -242,3 +242,34 @@ def test_no_space_and_no_torque_makes_a_motor_turn_faster(monkeypatch):
     error, tried = told(monkeypatch, {"input_speed": "3000 rpm"}, lambda own: None)
     assert tried == []
     assert error.message.endswith("or take another motor (--motor any tries all of the catalogue).")
+
+
+def _duty(rows):
+    """Requirements with steps of torque (N m) and speed (rpm) at the output."""
+    steps = [{"torque": f"{t} N*m", "speed": f"{n} rpm", "share": 0.01} for t, n in rows]
+    return asked(duty=steps)
+
+
+@pytest.mark.parametrize(
+    ("rows", "said"),
+    [
+        ([(87.0, 0.0), (-20.0, 30.0)], ()),
+        # What brakes is held by friction too, and may be pulled faster than the supply turns it.
+        ([(95.0, -10.0), (-95.0, 10.0), (-5.0, 400.0)], ()),
+        ([(5.0, 10.0), (-120.0, -10.0)], ("are 87.68 of the duty's 120 N*m", "raise the ratio")),
+        ([(90.0, 0.0)], ("are 87.68 of the duty's 90 N*m at ratio 10",)),
+        ([(5.0, 300.0)], ("turn it at 2948 of the duty's 3000 rpm at most", "lower the ratio")),
+    ],
+)
+def test_a_duty_beyond_the_motors_reach_is_refused_before_a_search(rows, said):
+    requirements = _duty(rows)
+    if not said:
+        refuse_weak_motor(requirements, MOTOR, None)
+        return
+    with pytest.raises(MotorShortError) as refusal:
+        refuse_weak_motor(requirements, MOTOR, None)
+    assert refusal.value.binding == ("DUTY-ENVELOPE",)
+    for words in said:
+        assert words in refusal.value.message
+    most = max((abs(t) for t, n in rows if t * n >= 0.0), default=0.0)
+    assert refusal.value.needed == (most if most > 87.68 else 0.0)
