@@ -139,7 +139,8 @@ def refuse_weak_motor(requirements: Requirements, motor: Motor, ambient: float |
     if told:
         raise MotorShortError(
             f"no gearbox makes motor '{motor.name}' do what is asked: {'; '.join(told)}. "
-            f"{_ways(binding, weak=needed > 0.0)}, or take another motor (--motor any tries all of the catalogue).",
+            f"{_ways(binding, weak=needed > 0.0)}, or take another motor (--motor any tries all of "
+            "the catalogue).",
             tuple(binding),
             most.torque,
             needed,

@@ -6,10 +6,12 @@ import math
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from legible import assert_legible, crossed, segments
 
 from cqdd_design.design import load_design
+from cqdd_design.exporting.bill.consumables import consumables
 from cqdd_design.exporting.edm.cut_facts import facts_of
 from cqdd_design.exporting.edm.flat_parts import flat_parts, reach_of
 from cqdd_design.exporting.options import DEFAULTS
@@ -29,7 +31,8 @@ from cqdd_design.exporting.sheets.end_plan import _round_row, drilled_size
 from cqdd_design.exporting.sheets.frame import cut_rows
 from cqdd_design.exporting.sheets.part_facts import PartFacts
 from cqdd_design.exporting.sheets.part_sheet import _fixed, draw_part
-from cqdd_design.exporting.sheets.section_plan import section_directions
+from cqdd_design.exporting.sheets.section_plan import SectionShape
+from cqdd_design.exporting.sheets.section_way import section_directions
 from cqdd_design.machine import resolve
 from cqdd_design.solids.features.holes import BoltCircle, TappedHole
 
@@ -85,6 +88,21 @@ def test_lobes_keep_their_angle_to_each_other(three):
     assert any("so the lobes are" in text for text in texts)
     # The loose cam has one lobe, and is turned by hand.
     assert "SIM1" not in labels_of(three, "eccentric cam")
+
+
+def test_what_stands_beside_the_axis_is_cut_through_its_middle(three):
+    """Balance weights of three discs stand beside the plane through +x, which cut nothing."""
+    weighted = resolve(three.given.replacing({"reducer.balance.counterweights": True}))
+    weights = [part for part in weighted.parts if part.name.startswith("balance weight")]
+    assert len(weights) == 2
+    for part in weights:
+        shape = SectionShape(PartFacts(part, weighted.given))
+        (face,) = shape.face
+        assert float(np.ptp(face[:, 0])) == pytest.approx(1e3 * (part.shape.top - part.shape.bottom))
+        labels_of(weighted, part.name)
+    (glue,) = [one for one in consumables(weighted) if one.name == "weights' adhesive"]
+    assert glue.designation == "LOCTITE EA 9466"
+    assert not any(one.name == glue.name for one in consumables(three))
 
 
 def test_holes_of_a_circle_are_one_pattern(three):

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from cqdd_design.catalog.adhesives import RING_COMPOUND, ROTOR_COMPOUND
+from cqdd_design.catalog.adhesives import FLAT_ADHESIVE, RING_COMPOUND, ROTOR_COMPOUND
 from cqdd_design.catalog.fits import fit_limits
 from cqdd_design.catalog.printing import Insert, printed_materials
 from cqdd_design.errors import CatalogError
@@ -14,6 +14,7 @@ from cqdd_design.exporting.bill.substitutes import other_lubricants
 from cqdd_design.exporting.printing.threads import with_inserts
 from cqdd_design.machine.grease import grease_fill
 from cqdd_design.machine.ring_seating import is_bonded
+from cqdd_design.solids.counterweights import NAMES as WEIGHTS
 from cqdd_design.solids.features import zones
 
 if TYPE_CHECKING:
@@ -140,6 +141,16 @@ def consumables(machine: Machine) -> tuple[Consumable, ...]:
         )
     if is_bonded(machine):
         found.append(_round_the_ring(machine))
+    if any(part.name in WEIGHTS for part in machine.parts):
+        found.append(
+            Consumable(
+                "weights' adhesive",
+                FLAT_ADHESIVE,
+                "a film between each balance weight and the bell; faces roughened, clean and dry",
+                "",
+                "Henkel, LOCTITE EA 9466 technical data sheet: two parts, to 120 degC",
+            )
+        )
     fill = grease_fill(machine)
     found.append(
         Consumable(

@@ -7,13 +7,11 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import combinations
 from typing import TYPE_CHECKING
 
 from cqdd_design.catalog.fits import general_tolerance
 from cqdd_design.exporting.sheets.blocks import Block, Box, Placed, Row, Words, stairs
 from cqdd_design.exporting.sheets.drawing import AXIS, OUTLINE, SheetDrawing
-from cqdd_design.exporting.sheets.end_plan import drilled_size
 from cqdd_design.exporting.sheets.lettering import text_width
 from cqdd_design.exporting.sheets.profile import (
     Cylinder,
@@ -22,6 +20,7 @@ from cqdd_design.exporting.sheets.profile import (
     levels,
     spoken_for,
 )
+from cqdd_design.exporting.sheets.section_way import section_directions
 from cqdd_design.exporting.sheets.sizes import Diameter, Lengths, Sizes, columns_of
 from cqdd_design.exporting.sheets.wording import (
     DIA,
@@ -55,55 +54,6 @@ if TYPE_CHECKING:
 
 _MM = 1e3
 _TITLE = 3.5
-
-
-def section_directions(facts: PartFacts) -> tuple[float, float]:
-    """Directions of the two halves of the section, rad: through as many kinds of holes as can be.
-
-    One that cuts holes beside their axes, where they are narrower and their points flat, gives way
-    to another; then a straight plane is preferred to a bent one, and one through +x to another.
-    """
-    circles = [group[0].circle for group in facts.holes]
-    tried = sorted({round(math.remainder(a, 2.0 * math.pi), 9) for c in circles for a in c.angles})
-    if not tried:
-        return 0.0, math.pi
-
-    def cut_by(direction: float) -> frozenset[int]:
-        return frozenset(
-            i
-            for i, circle in enumerate(circles)
-            if any(abs(math.remainder(a - direction, 2.0 * math.pi)) < 1e-6 for a in circle.angles)
-        )
-
-    def grazed_by(direction: float) -> int:
-        sizes = [max(drilled_size(hole) for hole in group) for group in facts.holes]
-        beside = [
-            cmath.rect(circle.radius, a - direction)
-            for circle, size in zip(circles, sizes, strict=True)
-            for a in circle.angles
-            if 1e-6 < circle.radius * abs(math.sin(a - direction)) < 0.5 * size
-        ]
-        return sum(place.real > 0.0 for place in beside)
-
-    found = {direction: cut_by(direction) for direction in tried}
-    grazed = {end: grazed_by(end) for one in tried for end in (one, one + math.pi)}
-    pairs = [(one, one + math.pi) for one in tried]
-    pairs += [
-        pair
-        for one, two in combinations(tried, 2)
-        for pair in ((one, two), (two, one))
-        if abs(math.remainder(two - one, 2.0 * math.pi)) > math.radians(60.0)
-    ]
-
-    def rank(pair: tuple[float, float]) -> tuple[float, ...]:
-        other = math.remainder(pair[1], 2.0 * math.pi)
-        near = next((found[d] for d in tried if abs(d - other) < 1e-6), cut_by(pair[1]))
-        seen = len(found[pair[0]] | near)
-        bend = abs(abs(math.remainder(pair[1] - pair[0], 2.0 * math.pi)) - math.pi)
-        across = grazed[pair[0]] + grazed[pair[1]]
-        return (-seen, across, round(bend, 6), round(abs(pair[0]), 6), pair[0], pair[1])
-
-    return min(pairs, key=rank)
 
 
 @dataclass(frozen=True, eq=False)
