@@ -139,6 +139,14 @@ class Material:
         """HRC, the least of a printed range; None when hardness is unknown or not in HRC."""
         return _least_hardness(self.hardness, "HRC")
 
+    @property
+    def is_hardened(self) -> bool:
+        """Whether the surface is hard enough for raceways, which :data:`HARDENED_HRC` says."""
+        return self.rockwell_hardness is not None and self.rockwell_hardness >= HARDENED_HRC
+
+
+HARDENED_HRC = 58.0
+"""Least hardness of raceways, HRC: what ISO 76 and ISO 281 presume."""
 
 _BAND = 1.1
 """Highest over least hardness that a drawing asks for where the catalogue has one value."""

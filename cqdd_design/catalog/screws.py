@@ -156,12 +156,6 @@ def pin_diameter_limits(diameter: float) -> tuple[float, float]:
     return screw.shoulder_diameter_min, screw.shoulder_diameter_max
 
 
-def mean_pin_diameter(diameter: float) -> float:
-    """Mean of the limits of an output pin of a nominal size, to which hole clearances count, m."""
-    least, greatest = pin_diameter_limits(diameter)
-    return 0.5 * (least + greatest)
-
-
 @dataclass(frozen=True)
 class ColumnScrew:
     """The screw through a column, m.

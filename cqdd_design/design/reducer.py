@@ -80,8 +80,8 @@ class OutputPins(FrozenModel):
     the two, or on the needle cage of the catalogue that fits between them, with that play in it.
     Drawn cups of the catalogue of both diameters need no sleeve: as many roll side by side in the
     hole as the disc is thick.
-    Its default is the mean of a G6 bore on an h5 pin of 3 to 6 mm (ISO 286), as makers of needle
-    cages ask for.
+    Without it, it is the mean that the drawn fit leaves: a bore of G6 on a pin ground to h5, as
+    makers of needle cages ask for, or on the f9 of a screw; F6 inside the needles of a cup.
     """
 
     count: Annotated[int, Whole(3, 60, "three pins hold a carrier")] = 6
@@ -95,10 +95,13 @@ class OutputPins(FrozenModel):
         default("0 mm")
     )
     sleeve: RunsOn = "plain"
-    sleeve_play: Annotated[
-        float,
-        QuantityIn(SMALL_LENGTH, "0 um", "500 um", "of a sleeve on its pin, on the diameter"),
-    ] = default("10 um")
+    sleeve_play: (
+        Annotated[
+            float,
+            QuantityIn(SMALL_LENGTH, "0 um", "500 um", "of a sleeve on its pin, on the diameter"),
+        ]
+        | None
+    ) = None
     hole_clearance: Annotated[
         float,
         QuantityIn(SMALL_LENGTH, "-100 um", "1000 um", "on the diameter, to the pin's mean"),
@@ -203,7 +206,8 @@ class Ring(FrozenModel):
 
     The pins of a pinwheel ring take rollers of `roller_diameter`, which then is what meshes with
     the discs: plain, with `roller_play` between roller and pin, or on the needle cage of the
-    catalogue that fits between the two, with that play in it.
+    catalogue that fits between the two, with that play in it. Without it, it is the mean of a G6
+    bore on a pin ground to h5.
     """
 
     outer_diameter: Annotated[
@@ -217,10 +221,13 @@ class Ring(FrozenModel):
         float, QuantityIn(LENGTH, "0 mm", "500 mm", "0 means no rollers on the pins")
     ] = default("0 mm")
     roller: RunsOn = "plain"
-    roller_play: Annotated[
-        float,
-        QuantityIn(SMALL_LENGTH, "0 um", "500 um", "of a roller on its pin, on the diameter"),
-    ] = default("10 um")
+    roller_play: (
+        Annotated[
+            float,
+            QuantityIn(SMALL_LENGTH, "0 um", "500 um", "of a roller on its pin, on the diameter"),
+        ]
+        | None
+    ) = None
 
     @model_validator(mode="after")
     def _needles_in_a_roller(self) -> Ring:

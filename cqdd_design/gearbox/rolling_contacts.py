@@ -18,11 +18,11 @@ from numpy.typing import ArrayLike
 
 from cqdd_design.catalog.bearings import FRICTION_COEFFICIENT
 from cqdd_design.catalog.materials import find_material
-from cqdd_design.catalog.screws import mean_pin_diameter
 from cqdd_design.design import Design
 from cqdd_design.gearbox.film.mixed import BOUNDARY_FRICTION
 from cqdd_design.gearbox.output_pins import sleeve_share
 from cqdd_design.geometry.contours import FloatArray
+from cqdd_design.geometry.output_pins import mean_pin_diameter
 from cqdd_design.geometry.runners import Runner, pin_runner, ring_runner
 
 
@@ -65,7 +65,7 @@ def hole_friction(design: Design) -> float:
     """Coefficient of friction at the wall of the output holes, without a film."""
     pins = design.reducer.output_pins
     own = at_rest(design.reducer.friction.pin)
-    return _felt(own, pin_runner(design), mean_pin_diameter(pins.diameter))
+    return _felt(own, pin_runner(design), mean_pin_diameter(pins))
 
 
 def tooth_friction(design: Design) -> float:

@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from cqdd_design.catalog.materials import find_material
-from cqdd_design.catalog.screws import mean_pin_diameter
 from cqdd_design.design import Design
 from cqdd_design.errors import GeometryError
 from cqdd_design.gearbox import hertz, rigid
 from cqdd_design.geometry import kinematics
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.disc import hole_diameter
+from cqdd_design.geometry.output_pins import mean_pin_diameter
 from cqdd_design.geometry.runners import pin_runner, ring_runner
 
 
@@ -53,7 +53,7 @@ class Stages:
     def from_design(cls, design: Design) -> Stages:
         """Read a design; a sleeve is taken to be of the pin's material."""
         reducer, pins = design.reducer, design.reducer.output_pins
-        contact_diameter = pins.sleeve_diameter or mean_pin_diameter(pins.diameter)
+        contact_diameter = pins.sleeve_diameter or mean_pin_diameter(pins)
         hole = hole_diameter(design)
         _refuse_tight_hole(design, contact_diameter, hole)
         disc = find_material(reducer.disc_material)

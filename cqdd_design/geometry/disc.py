@@ -24,7 +24,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cqdd_design.catalog.screws import mean_pin_diameter
 from cqdd_design.errors import UsageError
 from cqdd_design.geometry.biarc import fit_biarcs, mirrored_contour
 from cqdd_design.geometry.columns import column_hole_diameter, column_offsets
@@ -40,6 +39,7 @@ from cqdd_design.geometry.contours import (
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.geometry.kinematics import crank_phases, hole_clocking_in_disc
 from cqdd_design.geometry.meshing import project
+from cqdd_design.geometry.output_pins import mean_pin_diameter
 
 if TYPE_CHECKING:
     from cqdd_design.design import Design
@@ -74,7 +74,7 @@ def hole_diameter(design: Design) -> float:
     A pin counts with the mean of its limits of size: a 4 mm shoulder screw to f9 has 3.975 mm.
     """
     reducer, pins = design.reducer, design.reducer.output_pins
-    runner = pins.sleeve_diameter or mean_pin_diameter(pins.diameter)
+    runner = pins.sleeve_diameter or mean_pin_diameter(pins)
     return float(runner + 2.0 * reducer.eccentricity + pins.hole_clearance)
 
 

@@ -13,13 +13,15 @@ needle cage between pin and sleeve
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 from cqdd_design.catalog.bearings import Bearing, bearings
+from cqdd_design.catalog.fits import fit_limits
 from cqdd_design.errors import GeometryError
 from cqdd_design.geometry.limits import millimetres
+from cqdd_design.geometry.output_pins import RACEWAY, RUNNER_BORE, pin_limits
 
 if TYPE_CHECKING:
     from cqdd_design.design import Design
@@ -27,6 +29,8 @@ if TYPE_CHECKING:
 LEAST_WALL = 0.5e-3
 """Least wall of what turns on a pin, m (thinnest drawn or ground bush commonly sold)."""
 
+_CUP = "F6"
+"""Zone of the circle inside the needles of a drawn cup, as pressed into a gauge (ISO 3245)."""
 _SAME = 1e-9
 """Lengths nearer than this are equal, m."""
 
@@ -88,7 +92,8 @@ def pin_runner(design: Design) -> Runner | None:
     """
     pins = design.reducer.output_pins
     words = _Words("sleeve", "output_pins.sleeve", "output_pins.diameter")
-    return _runner(design, words, pins.diameter, pins.sleeve_diameter, pins.sleeve_play)
+    fit = _Fit(pins.sleeve_play, lambda: pin_limits(pins))
+    return _runner(design, words, pins.diameter, pins.sleeve_diameter, fit)
 
 
 def ring_runner(design: Design) -> Runner | None:
@@ -101,7 +106,8 @@ def ring_runner(design: Design) -> Runner | None:
     """
     pin, ring = design.reducer.ring_pin_diameter, design.reducer.ring
     words = _Words("roller", "ring.roller", "ring_pin_diameter")
-    return _runner(design, words, pin, ring.roller_diameter, ring.roller_play)
+    fit = _Fit(ring.roller_play, lambda: _limits(RACEWAY, pin))
+    return _runner(design, words, pin, ring.roller_diameter, fit)
 
 
 class _Words(NamedTuple):
@@ -112,9 +118,31 @@ class _Words(NamedTuple):
     pin: str
 
 
-def _runner(
-    design: Design, words: _Words, pin: float, diameter: float, play: float
-) -> Runner | None:
+def _limits(zone: str, size: float) -> tuple[float, float]:
+    found = fit_limits(zone, size)
+    return size + found.lower, size + found.upper
+
+
+class _Fit(NamedTuple):
+    """The play that is stated, and the limits of the pin's diameter, m."""
+
+    stated: float | None
+    pin: Callable[[], tuple[float, float]]
+
+    def play(self, bore: float, needles: float, zone: str) -> float:
+        """On the diameter, m: as stated, else the mean of what the drawn fit leaves.
+
+        Parameters
+        ----------
+        bore, needles : float
+            Nominal, of the sleeve, and what needles take of it, m.
+        """
+        if self.stated is not None:
+            return self.stated
+        return 0.5 * (sum(_limits(zone, bore)) - sum(self.pin())) - needles
+
+
+def _runner(design: Design, words: _Words, pin: float, diameter: float, fit: _Fit) -> Runner | None:
     if diameter <= 0.0:
         return None
     if diameter <= pin:
@@ -129,9 +157,10 @@ def _runner(
     if kind == "drawn cup":
         cup = _drawn_cup(words, pin, diameter, length)
         rows = int((length + _SAME) / cup.width)
-        return Runner(pin, diameter, rows * cup.width, play, cup, rows)
+        return Runner(pin, diameter, rows * cup.width, fit.play(pin, 0.0, _CUP), cup, rows)
     cage = _needle_cage(words, pin, diameter, length) if kind == "needle" else None
-    return Runner(pin, diameter, length, play, cage)
+    bore = pin if cage is None else cage.outer_diameter
+    return Runner(pin, diameter, length, fit.play(bore, bore - pin, RUNNER_BORE), cage)
 
 
 def _drawn_cup(words: _Words, pin: float, outside: float, length: float) -> Bearing:

@@ -256,15 +256,12 @@ def lay_out_motor(
     hub_bottom = min(web_bottom, hub_top - hub_length(torque, 2.0 * journal))
     encoder = lay_out_encoder(journal, hub_bottom - 0.5 * unit, hollow)
 
-    inner = bell + 1.0 * unit
     wall = 1.6 * unit
     thread = thread_size(3.0 * unit)
-    clearance = 0.55 * thread
     head = cap_screw(thread, 0.0).head_diameter
-    circle = max(
-        inner + max(wall + 0.3 * clearance, 0.5 * thread + _LEAST_WALL),
-        housing.flange_radius + _STYLUS + 0.5 * head,
-    )
+    beside = max(wall + 0.3 * 0.55 * thread, 0.5 * thread + _LEAST_WALL)
+    inner = max(bell + 1.0 * unit, housing.flange_radius + _STYLUS + 0.5 * head - beside)
+    circle = inner + beside
     ear_height = 2.0 * thread
     flange = min(3.0 * unit, pack.top - housing.flange_bottom)
     # Over the bell, whose ring ends a unit and a half below the flange.

@@ -16,6 +16,7 @@ from cqdd_design.design import Design
 from cqdd_design.geometry.columns import COLUMN_MATERIAL
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.disc import disc_contour, disc_moments
+from cqdd_design.geometry.output_pins import RACEWAY, pin_zone
 from cqdd_design.geometry.ring import ring_contour, ring_moments, ring_pins
 from cqdd_design.geometry.runners import Runner, pin_runner, ring_runner
 from cqdd_design.solids import carrier as carrier_shapes
@@ -163,7 +164,8 @@ def _ring_parts(design: Design, layout: Layout) -> list[Part]:
         shape = rotating.plain_pin(diameter, low, high)
         designation = f"ground pin {diameter * 1e3:g} x {(high - low) * 1e3:.6g} mm"
         pieces = around("ring pin", HOUSING, (pin.centre for pin in pins))
-        stated = ring_pin_features(diameter, low, high)
+        zone = RACEWAY if design.reducer.ring.roller_diameter else zones.RING_PIN
+        stated = ring_pin_features(diameter, low, high, zone)
         parts.append(
             Part(
                 "ring pin", shape, material, _BEARING, "make", designation, pieces, stated=stated
@@ -243,7 +245,8 @@ def _carrier_parts(design: Design, layout: Layout) -> list[Part]:
         how = turned
         if carrier.bonded_in_cap:
             drawn = " and drawn against their heads" if carrier.pin.screw else ""
-            how += f", seats {1e3 * carrier.pin.nominal_diameter:g} H7 bonded on the f9 pins{drawn}"
+            zone, size = pin_zone(design.reducer.output_pins), carrier.pin.nominal_diameter
+            how += f", seats {1e3 * size:g} H7 bonded on the {zone} pins{drawn}"
         features = carrier_features.cap_features(carrier, layout.pack.gap, position)
         cap = carrier_shapes.carrier_cap(carrier, layout.pack.gap, features)
         parts.append(made("carrier cap", cap, how, features))
@@ -320,8 +323,9 @@ def _pin_part(design: Design, layout: Layout) -> Part:
     carrier = layout.carrier
     pin, length = carrier.pin, carrier.shoulder_top - carrier.shoulder_bottom
     name = "dowel pin" if pin.screw is None else "shoulder screw"
+    zone = pin_zone(design.reducer.output_pins)
     if pin.screw is None:
-        size = f"{pin.nominal_diameter * 1e3:g} f9 x {length * 1e3:.4g}"
+        size = f"{pin.nominal_diameter * 1e3:g} {zone} x {length * 1e3:.4g}"
         bonded = "plate and cap" if carrier.bonded_in_cap else "the plate"
         designation = f"ground dowel {size}, bonded in {bonded}"
     else:
@@ -337,7 +341,7 @@ def _pin_part(design: Design, layout: Layout) -> Part:
         stated=()
         if pin.screw
         else pin_features(
-            pin.nominal_diameter, carrier.shoulder_bottom, carrier.shoulder_top, zones.PIN
+            pin.nominal_diameter, carrier.shoulder_bottom, carrier.shoulder_top, zone
         ),
     )
 

@@ -81,7 +81,7 @@ def lay_out(design: Design, cam_bearing: Bearing, motor: Motor) -> Layout:
         When disc, ring or holes cannot exist, when neighbouring cam bearings overlap, or when the
         eccentrics leave no shaft.
     """
-    pin = output_pin(design.reducer.output_pins.diameter)
+    pin = output_pin(design.reducer.output_pins)
     pin_runner(design)
     validate_geometry(design, bore_diameter=cam_bearing.outer_diameter)
     unit = _unit(design)
@@ -157,7 +157,7 @@ def _with_core(design: Design, cam_bearing: Bearing) -> tuple[PackLayout, Output
     unit = _unit(design)
     pack = _pack(design, cam_bearing, unit)
     core = max(_core_radius(pack), _least_core(pack))
-    return pack, output_pin(design.reducer.output_pins.diameter), core, unit
+    return pack, output_pin(design.reducer.output_pins), core, unit
 
 
 def carrier_bearings(design: Design, cam_bearing: Bearing) -> tuple[ChosenBearing, ...]:

@@ -13,8 +13,10 @@ from typing import NamedTuple
 
 from cqdd_design.catalog.bearings import BEARING_MATERIAL, Bearing, bearings
 from cqdd_design.catalog.cap_screws import cap_screw_mass
-from cqdd_design.catalog.screws import ShoulderScrew, find_shoulder_screw, mean_pin_diameter
-from cqdd_design.errors import CatalogError, GeometryError
+from cqdd_design.catalog.screws import ShoulderScrew
+from cqdd_design.design.reducer import OutputPins
+from cqdd_design.errors import GeometryError
+from cqdd_design.geometry.output_pins import mean_pin_diameter, shoulder_screw
 
 RING_SHARE = 0.3
 """Height of a bearing's ring as a share of its radial section, for shoulders and envelopes."""
@@ -353,15 +355,14 @@ class OutputPin:
         return next((length for length in sold if length >= least - 1e-9), special)
 
 
-def output_pin(diameter: float) -> OutputPin:
-    """The shoulder screw of a nominal diameter (m), or a ground f9 dowel of that size."""
-    try:
-        screw = find_shoulder_screw(diameter)
-    except CatalogError:
-        return OutputPin(diameter, mean_pin_diameter(diameter), None)
+def output_pin(pins: OutputPins) -> OutputPin:
+    """The shoulder screw, or the ground dowel, that output pins of a design are."""
+    screw, diameter, mean = shoulder_screw(pins), pins.diameter, mean_pin_diameter(pins)
+    if screw is None:
+        return OutputPin(diameter, mean, None)
     return OutputPin(
         nominal_diameter=diameter,
-        mean_diameter=screw.mean_diameter,
+        mean_diameter=mean,
         screw=screw,
         head_diameter=screw.head_diameter or _HEAD_DIAMETER * diameter,
         head_height=screw.head_height or _HEAD_HEIGHT * diameter,

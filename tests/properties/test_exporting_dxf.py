@@ -19,7 +19,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from cqdd_design.catalog import find_bearing
-from cqdd_design.catalog.screws import mean_pin_diameter
+from cqdd_design.geometry.output_pins import mean_pin_diameter
 from cqdd_design.design import load_design
 from cqdd_design.errors import CqddError, GeometryError, ReadBackError, UsageError
 from cqdd_design.exporting import KINDS, read_kinds
@@ -176,7 +176,7 @@ def test_programs_of_a_stack(paper, clocking, count, discs_, programs):
 @pytest.mark.parametrize("diameter", ["4 mm", "5 mm", "2 mm", "7.3 mm"])
 def test_holes_are_made_for_the_pins_that_the_loads_are_computed_with(paper, diameter):
     design = paper.replacing({"reducer.output_pins.diameter": diameter})
-    mean = mean_pin_diameter(design.reducer.output_pins.diameter)
+    mean = mean_pin_diameter(design.reducer.output_pins)
     assert flat_parts.pin_diameter(design) == pytest.approx(mean, abs=1e-12)
 
 

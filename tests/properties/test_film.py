@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 
 from cqdd_design.actuator.friction import STRIBECK_SPEED, friction_parameters
 from cqdd_design.catalog.lubricants import find_lubricant, lubricants, walther_viscosity
-from cqdd_design.catalog.screws import mean_pin_diameter
+from cqdd_design.geometry.output_pins import mean_pin_diameter
+from cqdd_design.geometry.runners import pin_runner
 from cqdd_design.design import Design, load_design
 from cqdd_design.errors import CqddError, DesignError, UsageError
 from cqdd_design.gearbox.checks.rubbing import rubbing_check
@@ -129,7 +130,9 @@ def test_a_sleeve_leaves_its_film_no_more_room_than_its_play() -> None:
     model = ContactModel.from_design(sleeved)
     film = hole_film(model, np.array([0.0, 1.0, 1e3]), FAST)
     assert film is not None
-    assert film.thickness.max() <= 0.5 * sleeved.reducer.output_pins.sleeve_play
+    runner = pin_runner(sleeved)
+    assert runner is not None
+    assert film.thickness.max() <= 0.5 * runner.play
     assert np.all(film.friction < 0.7 * BOUNDARY_FRICTION)
 
 
@@ -398,7 +401,7 @@ def test_plastics_are_pressed_by_the_mean_force_on_the_projected_area() -> None:
     (found,) = of_plastics(pin="PEEK")
     pins = S.reducer.output_pins
     force = swept().pin_force.mean(axis=0).max()
-    area = mean_pin_diameter(pins.diameter) * S.reducer.disc_thickness
+    area = mean_pin_diameter(pins) * S.reducer.disc_thickness
     assert found.pressure == pytest.approx(force / area, rel=1e-12)
     assert found.speed == pytest.approx(S.reducer.eccentricity * 1.1 * FAST, rel=1e-12)
     assert found.value == pytest.approx(found.pressure * found.speed)
@@ -431,7 +434,7 @@ def test_under_plain_sleeves_the_pin_rubs_and_on_needles_nothing_does() -> None:
     (found,) = rubbing_plastics(design, ContactModel.from_design(design), swept(), FAST)
     assert found.material == "PA66"
     (bare,) = of_plastics(pin="PA66")
-    diameter = mean_pin_diameter(S.reducer.output_pins.diameter)
+    diameter = mean_pin_diameter(S.reducer.output_pins)
     assert found.speed == pytest.approx(bare.speed * diameter / 6e-3, rel=1e-9)
     printed = resolve(load_design(Path(__file__).parents[2] / "designs" / "printed-13.toml"))
     assert sliding_plastics(printed.design, printed.contact) == ()

@@ -98,7 +98,9 @@ def test_what_stands_beside_the_axis_is_cut_through_its_middle(three):
     for part in weights:
         shape = SectionShape(PartFacts(part, weighted.given))
         (face,) = shape.face
-        assert float(np.ptp(face[:, 0])) == pytest.approx(1e3 * (part.shape.top - part.shape.bottom))
+        assert float(np.ptp(face[:, 0])) == pytest.approx(
+            1e3 * (part.shape.top - part.shape.bottom)
+        )
         labels_of(weighted, part.name)
     (glue,) = [one for one in consumables(weighted) if one.name == "weights' adhesive"]
     assert glue.designation == "LOCTITE EA 9466"

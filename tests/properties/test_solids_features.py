@@ -13,6 +13,7 @@ from solids_designs import CHANGES, known_parts, machines, part_named
 
 from cqdd_design.catalog.bearings import Bearing
 from cqdd_design.catalog.motors import find_motor
+from cqdd_design.catalog.fits import fit_limits
 from cqdd_design.catalog.screws import pin_diameter_limits
 from cqdd_design.catalog.threads import tap_drill, thread_named, thread_size_of
 from cqdd_design.design import Design
@@ -187,7 +188,12 @@ def assert_features_on(part: Part) -> None:
     for one in part.features:
         if isinstance(one, Seat) and part.exact_section is None:
             # A pin is drawn at the mean of its limits.
-            drawn = pin_diameter_limits(one.diameter) if one.zone == PIN else (one.diameter,)
+            drawn = (one.diameter,)
+            if part.name == "dowel pin" and one.zone != PIN:
+                zone = fit_limits(one.zone, one.diameter)
+                drawn = (one.diameter + zone.lower, one.diameter + zone.upper)
+            elif one.zone == PIN:
+                drawn = pin_diameter_limits(one.diameter)
             radius = 0.5 * sum(drawn) / len(drawn)
             covered = runs(*one.centre, radius, one.bottom, one.top)
             assert covered or one.name in BROKEN_SEATS, (part.name, one.name)

@@ -12,6 +12,7 @@ from cqdd_design.catalog.printing import Insert, printed_materials
 from cqdd_design.errors import CatalogError
 from cqdd_design.exporting.bill.substitutes import other_lubricants
 from cqdd_design.exporting.printing.threads import with_inserts
+from cqdd_design.geometry.output_pins import pin_zone
 from cqdd_design.machine.grease import grease_fill
 from cqdd_design.machine.ring_seating import is_bonded
 from cqdd_design.solids.counterweights import NAMES as WEIGHTS
@@ -92,14 +93,14 @@ def bonds(machine: Machine) -> tuple[Bond, ...]:
     if cam.raceway_diameter is not None:
         gap, count = _gap("H6", zones.LOBE, cam.bore_diameter), layout.pack.disc_count
         found.append(Bond("inner rings on the lobes", cam.bore_diameter, cam.width, gap, count))
-    pin = carrier.pin.nominal_diameter
+    pin, zone = carrier.pin.nominal_diameter, pin_zone(machine.design.reducer.output_pins)
     if carrier.bonded_in_cap:
         depth = -layout.pack.gap - carrier.shoulder_bottom
-        found.append(Bond("pins in the cap", pin, depth, _gap("H7", "f9", pin), carrier.pin_count))
+        found.append(Bond("pins in the cap", pin, depth, _gap("H7", zone, pin), carrier.pin_count))
     if carrier.pin.screw is None:
         depth = carrier.shoulder_top - carrier.plate_bottom
         found.append(
-            Bond("pins in the plate", pin, depth, _gap("H7", "f9", pin), carrier.pin_count)
+            Bond("pins in the plate", pin, depth, _gap("H7", zone, pin), carrier.pin_count)
         )
     if layout.pack.disc_count > 2:
         size = 2.0 * layout.shaft.shoulder_radius

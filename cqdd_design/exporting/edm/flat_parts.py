@@ -19,12 +19,12 @@ from cqdd_design.exporting.edm.seats import Seat, seat
 from cqdd_design.geometry.contours import ArcContour, Contour, PlanarPart
 from cqdd_design.geometry.disc import disc_contour
 from cqdd_design.geometry.grooves import grooved_circle
+from cqdd_design.geometry.output_pins import mean_pin_diameter
 from cqdd_design.geometry.ring import pocket_radius, ring_contour
 from cqdd_design.geometry.validate import validate_geometry
 from cqdd_design.solids.clocking import DiscGroup, disc_groups
 from cqdd_design.solids.features import zones
 from cqdd_design.solids.features.housing import SEAM_POSITION
-from cqdd_design.solids.selection import output_pin
 
 if TYPE_CHECKING:
     from cqdd_design.design import Design
@@ -126,7 +126,7 @@ def flat_parts(machine: Machine) -> tuple[FlatPart, ...]:
 
 def pin_diameter(design: Design) -> float:
     """Mean diameter of the output pins as made, m."""
-    return output_pin(design.reducer.output_pins.diameter).mean_diameter
+    return mean_pin_diameter(design.reducer.output_pins)
 
 
 def reach_of(contour: Contour) -> float:

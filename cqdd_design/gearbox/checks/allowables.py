@@ -13,6 +13,7 @@ import numpy as np
 
 from cqdd_design.catalog.adhesives import SAFETY, RetainingCompound
 from cqdd_design.catalog.dowels import SHEAR_STRENGTH
+from cqdd_design.catalog.materials import HARDENED_HRC as RACEWAY_HRC
 from cqdd_design.catalog.materials import Material
 from cqdd_design.catalog.tightening import STRIPPING_SAFETY
 from cqdd_design.geometry.runners import LEAST_WALL
@@ -48,7 +49,7 @@ HARDENED_STATIC_PRESSURE = 2500e6
 below the 4000 MPa of ISO 76 because flanks are not super-finished)."""
 HARDENED_FATIGUE_PRESSURE = 1500e6
 """Fatigue pressure for flanks of 58 HRC and more, Pa (ISO 6336-5, quality MQ, sigma_Hlim)."""
-HARDENED_HRC = 58.0
+HARDENED_HRC = RACEWAY_HRC
 """Hardness from which the two limits above hold."""
 AGMA_SLOPE, AGMA_BASE = 2.22e6, 200e6
 """Through-hardened steel, grade 1: 2.22 HB + 200 MPa at 1e7 cycles (AGMA 2101-D04, contact stress
@@ -167,7 +168,7 @@ def brinell_estimate(material: Material) -> tuple[float, str] | None:
 
 def is_hardened(material: Material) -> bool:
     """Whether the surface has 58 HRC or more."""
-    return material.rockwell_hardness is not None and material.rockwell_hardness >= HARDENED_HRC
+    return material.is_hardened
 
 
 def contact_limit_static(material: Material) -> Allowable:

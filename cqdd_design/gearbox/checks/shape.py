@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from contextlib import suppress
 
-from cqdd_design.catalog.screws import LEAST_COLUMN, pin_diameter_limits
+from cqdd_design.catalog.screws import LEAST_COLUMN
 from cqdd_design.errors import CqddError
 from cqdd_design.gearbox.cam_bearing import least_bore
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.state import GearboxState, build_check
 from cqdd_design.geometry.disc import ligaments
 from cqdd_design.geometry.limits import at_most, rounded_down, rounded_up
+from cqdd_design.geometry.output_pins import pin_limits
 from cqdd_design.results import Check
 
 _SLACK = 1e-12
@@ -197,7 +198,7 @@ def _inward(state: GearboxState) -> str:
 def _fits(state: GearboxState) -> tuple[Check, ...]:
     pins, bearing = state.design.reducer.output_pins, state.cam_bearing.bearing
     reducer = state.design.reducer
-    least, greatest = pin_diameter_limits(pins.diameter)
+    least, greatest = pin_limits(pins)
     sleeved = pins.sleeve_diameter > 0.0
     # A sleeve is ground to size, so its hole clearance is what the stack gets.
     spread = 0.0 if sleeved else 0.5 * (greatest - least)

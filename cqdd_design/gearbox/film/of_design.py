@@ -14,12 +14,12 @@ from typing import NamedTuple
 from cqdd_design.catalog.finishes import find_finish
 from cqdd_design.catalog.lubricants import RUNNING_TEMPERATURE, find_lubricant
 from cqdd_design.catalog.materials import find_material
-from cqdd_design.catalog.screws import mean_pin_diameter
 from cqdd_design.design import Design
 from cqdd_design.gearbox import hertz
 from cqdd_design.gearbox.film.law import FilmLaw
 from cqdd_design.gearbox.film.mixed import BOUNDARY_FRICTION, composite_roughness
 from cqdd_design.gearbox.output_pins import sleeve_share
+from cqdd_design.geometry.output_pins import mean_pin_diameter
 from cqdd_design.geometry.runners import Runner, pin_runner, ring_runner
 
 _LEAST_PLAY = 1e-6
@@ -72,7 +72,7 @@ def pin_film(design: Design, temperature: float = RUNNING_TEMPERATURE) -> Contac
     pins = reducer.output_pins
     pair = (pins.material, reducer.disc_material)
     rough = (finish.pin, finish.disc)
-    diameter = mean_pin_diameter(pins.diameter)
+    diameter = mean_pin_diameter(pins)
     return _film(design, temperature, pin_runner(design), diameter, pair, rough)
 
 

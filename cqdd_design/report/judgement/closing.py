@@ -7,13 +7,12 @@ from collections.abc import Sequence
 
 from cqdd_design.catalog.bearings import bearings, find_bearing
 from cqdd_design.catalog.materials import find_material
-from cqdd_design.catalog.screws import find_shoulder_screw
 from cqdd_design.design import Design
-from cqdd_design.errors import CatalogError
 from cqdd_design.gearbox import GearboxAnalysis
 from cqdd_design.gearbox.balance import paper_disc_count
 from cqdd_design.gearbox.checks.allowables import UNEVEN_SHARING
 from cqdd_design.geometry import kinematics
+from cqdd_design.geometry.output_pins import pin_zone, shoulder_screw
 from cqdd_design.report.ink.numbers import MINUS, millimetres
 from cqdd_design.results import Check
 from cqdd_design.solids.part import Part
@@ -201,11 +200,10 @@ def _catalogue(analysis: GearboxAnalysis, parts: Sequence[Part]) -> tuple[Source
         (f"bearing {name}: {find_bearing(name).source}", _listed(uses))
         for name, uses in seats.items()
     ]
-    try:
-        screw = find_shoulder_screw(reducer.output_pins.diameter)
-        rows.append((f"{screw.name}: {screw.source}", "output pins, limits of size"))
-    except CatalogError:
-        rows.append(("ISO 286-2, zone f9", "output pins, limits of size"))
+    screw = shoulder_screw(reducer.output_pins)
+    zone = f"ISO 286-2, zone {pin_zone(reducer.output_pins)}"
+    source = zone if screw is None else f"{screw.name}: {screw.source}"
+    rows.append((source, "output pins, limits of size"))
     motor = analysis.motor
     rows.append((f"{motor.name}: {motor.source}", "motor checks"))
     return tuple(rows)

@@ -6,6 +6,7 @@ import math
 
 from cqdd_design.catalog.adhesives import ROTOR_COMPOUND
 from cqdd_design.catalog.fits import fit_limits
+from cqdd_design.geometry.output_pins import RUNNER_BORE
 from cqdd_design.solids.features import zones
 from cqdd_design.solids.features.holes import Centre, Facing
 from cqdd_design.solids.features.kinds import Feature, Joint, Seat
@@ -176,8 +177,8 @@ def _ground_before(pack: PackLayout, shaft: ShaftLayout) -> str:
 def sleeve_features(inner: float, outer: float, length: float) -> tuple[Feature, ...]:
     """Of a sleeve or roller that turns on a pin: bore and outside, ground."""
     return (
-        seat("bore", inner, 0.0, length, zones.PIN_HOLE, inside=True, ground=True, datum="A"),
-        seat("outside", outer, 0.0, length, zones.RING_PIN, ground=True, refers="A"),
+        seat("bore", inner, 0.0, length, RUNNER_BORE, inside=True, ground=True, datum="A"),
+        seat("outside", outer, 0.0, length, zones.RUNNER, ground=True, refers="A"),
     )
 
 
@@ -191,8 +192,8 @@ RING_PIN_PLAY = BEARING_FACE
 the thinnest ring, whose clamp then presses the ring and not its pins."""
 
 
-def ring_pin_features(diameter: float, bottom: float, top: float) -> tuple[Feature, ...]:
+def ring_pin_features(diameter: float, bottom: float, top: float, zone: str) -> tuple[Feature, ...]:
     """Of a pin of a ring, whose length has limits."""
-    (outside,) = pin_features(diameter, bottom, top, zones.RING_PIN)
+    (outside,) = pin_features(diameter, bottom, top, zone)
     end = shoulder("end", top, 0.0, 0.5 * diameter, "up", outside, along=BEARING_FACE)
     return (outside, end)

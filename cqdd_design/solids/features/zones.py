@@ -48,5 +48,7 @@ compound sets, which alone holds it; more interference would tear its thin side 
 LOOSE_LOBE = "g5"
 """Of a loose cam, which is ground before it is pressed on, and grows: by less than g5 lies below
 h6, so that its bearing slips on it as on the others."""
+RUNNER = "js6"
+"""Outside of sleeves and rollers, whose mean is their nominal size, as it is judged."""
 RING_PIN, RING_PIN_SEAT = "h6", "H7"
 """Of ring pins whose ends housing and clamp hold."""
