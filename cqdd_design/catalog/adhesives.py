@@ -73,9 +73,9 @@ RING_COMPOUND = "LOCTITE 641"
 """Round the ring, which wears and comes out again: of medium strength, for joints that are to be
 taken apart (Henkel, LOCTITE 641 technical data sheet). No torque is asked of it."""
 
-FLAT_ADHESIVE = "LOCTITE EA 9466"
-"""Under balance weights, where no gap closes round a retaining compound: a toughened epoxy of two
-parts for metals, to 120 degC (Henkel, LOCTITE EA 9466 technical data sheet)."""
+EPOXY = "LOCTITE EA 9466"
+"""Where a retaining compound does not cure, which takes metal all round: a toughened epoxy of two
+parts, to 120 degC (Henkel, LOCTITE EA 9466 technical data sheet)."""
 
 ROTOR_COMPOUND = RetainingCompound(
     name="LOCTITE 648",

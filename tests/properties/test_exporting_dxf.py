@@ -19,7 +19,6 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from cqdd_design.catalog import find_bearing
-from cqdd_design.geometry.output_pins import mean_pin_diameter
 from cqdd_design.design import load_design
 from cqdd_design.errors import CqddError, GeometryError, ReadBackError, UsageError
 from cqdd_design.exporting import KINDS, read_kinds
@@ -27,6 +26,7 @@ from cqdd_design.exporting.edm import dxf, flat_parts
 from cqdd_design.exporting.edm.start_holes import start_holes
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.geometry.disc import hole_centres, lobed_outline
+from cqdd_design.geometry.output_pins import mean_pin_diameter
 from cqdd_design.machine import resolve
 from cqdd_design.roads.export import export
 from cqdd_design.solids.clocking import disc_groups

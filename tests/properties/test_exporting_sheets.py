@@ -355,9 +355,16 @@ def notes_of(machine):
     return AssemblyFacts(machine).notes()
 
 
-def test_the_sheet_of_a_plastic_part_names_the_inserts_in_its_threads(printed):
-    plate = next(p for p in printed.parts if p.name == "carrier plate")
-    said = part_sheet.notes(PartFacts(plate, printed.given))
+@pytest.fixture(scope="module")
+def screwed(printed):
+    """With pins that are screws: its own are dowels."""
+    tough = {"reducer.output_pins.material": "Alloy steel 12.9 (ISO 7379)"}
+    return resolve(printed.given.replacing(tough))
+
+
+def test_the_sheet_of_a_plastic_part_names_the_inserts_in_its_threads(screwed):
+    plate = next(p for p in screwed.parts if p.name == "carrier plate")
+    said = part_sheet.notes(PartFacts(plate, screwed.given))
     assert sum("heat-set insert M4 x 8.1 in holes of 5.6 mm" in note for note in said) == 2
     assert sum("after printing these surfaces are cut to size" in note for note in said) == 1
 
@@ -419,12 +426,12 @@ def test_a_plain_hole_that_the_view_hides_goes_through(machine):
     assert "through, from the far side" in texts
 
 
-def test_a_seat_over_a_thread_right_through_is_on_the_far_side_of_the_view(printed):
+def test_a_seat_over_a_thread_right_through_is_on_the_far_side_of_the_view(screwed):
     """Seen from the output the threads come through, and the pins' seats are behind them."""
-    plate = next(part for part in printed.parts if part.name == "carrier plate")
+    plate = next(part for part in screwed.parts if part.name == "carrier plate")
     threads = next(one for one in plate.features if one.name == "threads of the pins")
     assert threads.through
-    assert "fitted bore from the far side" in texts_of(svg_text(drawn(plate, printed), ""))
+    assert "fitted bore from the far side" in texts_of(svg_text(drawn(plate, screwed), ""))
 
 
 def test_the_sheet_of_a_loose_cam_says_when_it_is_ground(machine):

@@ -13,8 +13,6 @@ from hypothesis import strategies as st
 
 from cqdd_design.actuator.friction import STRIBECK_SPEED, friction_parameters
 from cqdd_design.catalog.lubricants import find_lubricant, lubricants, walther_viscosity
-from cqdd_design.geometry.output_pins import mean_pin_diameter
-from cqdd_design.geometry.runners import pin_runner
 from cqdd_design.design import Design, load_design
 from cqdd_design.errors import CqddError, DesignError, UsageError
 from cqdd_design.gearbox.checks.rubbing import rubbing_check
@@ -44,6 +42,8 @@ from cqdd_design.gearbox.losses.machine import SOURCES, total
 from cqdd_design.gearbox.losses.rolling import seal_torque
 from cqdd_design.gearbox.tolerance import evaluate
 from cqdd_design.gearbox.tolerance.draws import draw_errors
+from cqdd_design.geometry.output_pins import mean_pin_diameter
+from cqdd_design.geometry.runners import pin_runner
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.verdict import judge
 

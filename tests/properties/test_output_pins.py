@@ -8,6 +8,7 @@ import pytest
 
 from cqdd_design.catalog.fits import fit_limits
 from cqdd_design.design import Design, load_design
+from cqdd_design.exporting.bill.consumables import consumables
 from cqdd_design.geometry.output_pins import mean_pin_diameter, pin_limits, shoulder_screw
 from cqdd_design.geometry.runners import Runner, pin_runner, ring_runner
 from cqdd_design.machine import resolve
@@ -84,6 +85,12 @@ def test_no_shoulder_screw_is_ordered_of_a_hardened_steel() -> None:
     names = {one.name: one for one in resolve(hard).parts}
     assert "shoulder screw" not in names
     assert names["dowel pin"].source == "make"
+    # In plastic, where a retaining compound does not cure, with an epoxy.
+    printed = resolve(load_design(ROOT / "designs" / "printed-13.toml"))
+    told = {one.name: one.fitting for one in consumables(printed)}
+    assert "pins in the plate" in told["epoxy"]
+    assert "pins in" not in told["retaining compound"]
+    assert "epoxy" not in {one.name for one in consumables(resolve(hard))}
     # Bare, it keeps the zone that holes are cut for.
     assert mean_pin_diameter(hard.reducer.output_pins) == pytest.approx(3.975e-3)
     assert mean_pin_diameter(tough.reducer.output_pins) == pytest.approx(3.975e-3)

@@ -12,8 +12,8 @@ from hypothesis import HealthCheck, given, settings
 from solids_designs import CHANGES, known_parts, machines, part_named
 
 from cqdd_design.catalog.bearings import Bearing
-from cqdd_design.catalog.motors import find_motor
 from cqdd_design.catalog.fits import fit_limits
+from cqdd_design.catalog.motors import find_motor
 from cqdd_design.catalog.screws import pin_diameter_limits
 from cqdd_design.catalog.threads import tap_drill, thread_named, thread_size_of
 from cqdd_design.design import Design

@@ -6,8 +6,9 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from cqdd_design.catalog.adhesives import FLAT_ADHESIVE, RING_COMPOUND, ROTOR_COMPOUND
+from cqdd_design.catalog.adhesives import EPOXY, RING_COMPOUND, ROTOR_COMPOUND
 from cqdd_design.catalog.fits import fit_limits
+from cqdd_design.catalog.materials import find_material
 from cqdd_design.catalog.printing import Insert, printed_materials
 from cqdd_design.errors import CatalogError
 from cqdd_design.exporting.bill.substitutes import other_lubricants
@@ -68,9 +69,9 @@ class Bond:
 
 
 def bonds(machine: Machine) -> tuple[Bond, ...]:
-    """Every cylindrical bond that is drawn."""
+    """Every cylindrical bond of metals that is drawn."""
     layout = machine.layout
-    carrier, stub = layout.carrier, layout.shaft.support.bearing.bore_diameter
+    stub = layout.shaft.support.bearing.bore_diameter
     motor, around, found = layout.motor_end, layout.motor is not None, []
     if motor is not None:
         ring, stack = motor.ring_top - motor.ring_bottom, motor.stack_top - motor.stack_bottom
@@ -93,15 +94,7 @@ def bonds(machine: Machine) -> tuple[Bond, ...]:
     if cam.raceway_diameter is not None:
         gap, count = _gap("H6", zones.LOBE, cam.bore_diameter), layout.pack.disc_count
         found.append(Bond("inner rings on the lobes", cam.bore_diameter, cam.width, gap, count))
-    pin, zone = carrier.pin.nominal_diameter, pin_zone(machine.design.reducer.output_pins)
-    if carrier.bonded_in_cap:
-        depth = -layout.pack.gap - carrier.shoulder_bottom
-        found.append(Bond("pins in the cap", pin, depth, _gap("H7", zone, pin), carrier.pin_count))
-    if carrier.pin.screw is None:
-        depth = carrier.shoulder_top - carrier.plate_bottom
-        found.append(
-            Bond("pins in the plate", pin, depth, _gap("H7", zone, pin), carrier.pin_count)
-        )
+    found += _pin_bonds(machine) if _pins_in_metal(machine) else []
     if layout.pack.disc_count > 2:
         size = 2.0 * layout.shaft.shoulder_radius
         long = layout.pack.cam_top(2) - layout.pack.cam_top(1)
@@ -112,6 +105,25 @@ def bonds(machine: Machine) -> tuple[Bond, ...]:
         gap = _gap(zones.SEAM_GROOVE, zones.DOWEL, size)
         found.append(Bond("ring dowels", size, dowels.bearing_length, gap, len(dowels.angles)))
     return tuple(found)
+
+
+def _pins_in_metal(machine: Machine) -> bool:
+    """Whether plate and cap are of what a retaining compound cures on."""
+    return ROTOR_COMPOUND.share_on(find_material(machine.design.carrier_material)) > 0.0
+
+
+def _pin_bonds(machine: Machine) -> list[Bond]:
+    """Of the output pins in cap and plate, whatever these are of."""
+    carrier, found = machine.layout.carrier, []
+    pin, zone = carrier.pin.nominal_diameter, pin_zone(machine.design.reducer.output_pins)
+    gap = _gap("H7", zone, pin)
+    if carrier.bonded_in_cap:
+        depth = -machine.layout.pack.gap - carrier.shoulder_bottom
+        found.append(Bond("pins in the cap", pin, depth, gap, carrier.pin_count))
+    if carrier.pin.screw is None:
+        depth = carrier.shoulder_top - carrier.plate_bottom
+        found.append(Bond("pins in the plate", pin, depth, gap, carrier.pin_count))
+    return found
 
 
 def _gap(hole: str, shaft: str, diameter: float) -> float:
@@ -142,16 +154,7 @@ def consumables(machine: Machine) -> tuple[Consumable, ...]:
         )
     if is_bonded(machine):
         found.append(_round_the_ring(machine))
-    if any(part.name in WEIGHTS for part in machine.parts):
-        found.append(
-            Consumable(
-                "weights' adhesive",
-                FLAT_ADHESIVE,
-                "a film between each balance weight and the bell; faces roughened, clean and dry",
-                "",
-                "Henkel, LOCTITE EA 9466 technical data sheet: two parts, to 120 degC",
-            )
-        )
+    found += _epoxy(machine)
     fill = grease_fill(machine)
     found.append(
         Consumable(
@@ -164,6 +167,16 @@ def consumables(machine: Machine) -> tuple[Consumable, ...]:
         )
     )
     return tuple(found)
+
+
+def _epoxy(machine: Machine) -> list[Consumable]:
+    """Under balance weights, and round pins in plastic."""
+    places = [] if _pins_in_metal(machine) else [one.place for one in _pin_bonds(machine)]
+    if any(part.name in WEIGHTS for part in machine.parts):
+        places.append("a film between each balance weight and the bell")
+    source = f"Henkel, {EPOXY} technical data sheet: two parts, to 120 degC"
+    told = f"{', '.join(places)}; faces roughened, clean and dry"
+    return [Consumable("epoxy", EPOXY, told, "", source)] if places else []
 
 
 def _round_the_ring(machine: Machine) -> Consumable:
