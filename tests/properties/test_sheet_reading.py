@@ -102,9 +102,9 @@ def test_what_stands_beside_the_axis_is_cut_through_its_middle(three):
             1e3 * (part.shape.top - part.shape.bottom)
         )
         labels_of(weighted, part.name)
-    (glue,) = [one for one in consumables(weighted) if one.name == "weights' adhesive"]
-    assert glue.designation == "LOCTITE EA 9466"
-    assert not any(one.name == glue.name for one in consumables(three))
+    (glue,) = [one for one in consumables(weighted) if one.name == "epoxy"]
+    assert "balance weight" in glue.fitting
+    assert not any(one.name == "epoxy" for one in consumables(three))
 
 
 def test_holes_of_a_circle_are_one_pattern(three):
