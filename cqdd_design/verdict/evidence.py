@@ -148,7 +148,7 @@ def _heat(machine: Machine) -> _HeatTold:
     if warm is None or machine.stiff or checks[0].status != "fail":
         return warm, checks, told
     duty = bool(machine.design.requirements.load_cases)
-    enough = remembered("cooling", machine, warm, (), lambda: enough_cooling(warm))
+    enough = remembered("cooling", machine, (*warm.steady,), lambda: enough_cooling(warm))
     remedy = cooling_remedy(enough, duty=duty)
     return warm, (replace(checks[0], remedy=remedy), *checks[1:]), told
 
@@ -185,7 +185,7 @@ def _lasting(
         return 0.0
 
     try:
-        return remembered("lasting torque", machine, warm, (most, speed, *ways), find)
+        return remembered("lasting torque", machine, (most, speed, *ways, *warm.steady), find)
     except (ContactError, DesignError, GeometryError):
         return None
 

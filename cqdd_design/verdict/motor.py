@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.demands import Demand, demands
 from cqdd_design.actuator.duty_points import ASKED, DutyPoints, duty_points
 from cqdd_design.actuator.motor import torque_constant_at
@@ -25,7 +26,7 @@ from cqdd_design.actuator.operating import (
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Requirements
-from cqdd_design.errors import DesignError
+from cqdd_design.errors import ContactError, DesignError
 from cqdd_design.gearbox.checks.remedies import PEAK_KEY, lower_peak
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.geometry.limits import rounded_down, rounded_up
@@ -33,6 +34,7 @@ from cqdd_design.machine import Machine
 from cqdd_design.machine.lasting import lasting_speed
 from cqdd_design.results import Check
 from cqdd_design.solids.motor_rules import undrawn_sizes
+from cqdd_design.verdict.remembered import remembered
 
 MODEL = "operating points of the simulated actuator"
 ALL_PARTS = f"{MODEL}, as far as all parts stand it"
@@ -96,7 +98,7 @@ def motor_lines(
         return (*(_unknown(one, asked, why) for one in _LIMITS), *lines, *_bore(machine))
     peak, steady, *duty = demands(actuator, asked)
     lines += [
-        _peak(peak, actuator, motor, asked),
+        _peak(peak, actuator, machine),
         # Under a duty its own heat decides, see THERMAL-RISE.
         *(() if duty else (_continuous(steady, actuator, machine, uncooled, lasting),)),
         _speed(actuator, asked),
@@ -107,6 +109,8 @@ def motor_lines(
     return (*lines, _duty(duty)) if duty else tuple(lines)
 
 
+_LOOKS = 3
+"""At peak torques that are reached, each a little below the one before."""
 _LIMITS = ("MOTOR-PEAK", "MOTOR-CONTINUOUS", "MOTOR-SPEED")
 
 
@@ -131,8 +135,8 @@ def _data(motor: Motor) -> tuple[Check, ...]:
     return (build_check("MOTOR-DATA", None, count, told, GIVE, model=MODEL),)
 
 
-def _peak(demand: Demand, actuator: ActuatorParameters, motor: Motor, asked: Requirements) -> Check:
-    most = demand.found.most
+def _peak(demand: Demand, actuator: ActuatorParameters, machine: Machine) -> Check:
+    motor, asked, most = machine.motor, machine.design.requirements, demand.found.most
     binding = ", ".join(demand.found.binding) or "nothing"
     hot = judge(actuator, asked.peak_torque, 0.0, lasting=False, hot=True)
     told = (
@@ -142,7 +146,11 @@ def _peak(demand: Demand, actuator: ActuatorParameters, motor: Motor, asked: Req
     if motor.peak_torque is None and most >= asked.peak_torque:
         why = f"{told}the motor's own peak torque is not known"
         return build_check("MOTOR-PEAK", None, asked.peak_torque, why, GIVE, model=MODEL)
-    lower = f"{lower_peak(most, asked.continuous_torque, PEAK_KEY)}, " if most > 0.0 else ""
+    lower = ""
+    if 0.0 < most < asked.peak_torque:
+        # Of a look in a search nobody reads it.
+        held = most if machine.stiff else _reached_when_asked(machine, most)
+        lower = f"{lower_peak(held, asked.continuous_torque, PEAK_KEY)}, "
     return build_check(
         "MOTOR-PEAK",
         most,
@@ -151,6 +159,32 @@ def _peak(demand: Demand, actuator: ActuatorParameters, motor: Motor, asked: Req
         f"{lower}{_raised([demand.found], actuator)}take a stronger motor or more ratio",
         model=MODEL,
     )
+
+
+def _reached_when_asked(machine: Machine, most: float) -> float:
+    """A peak torque that is reached where it is what is asked for, N m, about that reached now.
+
+    Friction is put in numbers up to the peak torque, and so is another with another peak.
+    """
+
+    def reached(peak: float) -> float:
+        other = machine.under(peak=peak)
+        return demands(actuator_parameters(other), other.design.requirements)[0].found.most
+
+    def find() -> float:
+        now, told = reached(machine.design.requirements.peak_torque), most
+        for _ in range(_LOOKS):
+            there = most / now * reached(told)
+            if there >= rounded_down(told):
+                break
+            told = there
+        return told
+
+    try:
+        return remembered("peak that is reached", machine, (most,), find)
+    except ContactError:
+        # Of a gearbox that does not carry what is asked: its own lines say so.
+        return most
 
 
 def _continuous(

@@ -76,5 +76,7 @@ def _cure(machine: Machine, warm: MachineTemperatures | None, worst: SeatedState
     if grows_more(machine.design.carrier_material) and steel_helps(machine, warm):
         return f"set carrier.material to '{SHAFT_MATERIAL}', which grows as the bearing does"
     cold = worst.housing < REFERENCE
-    less = "a warmer environment.coldest" if cold else "less heat"
+    air = machine.design.environment
+    start = "coldest" if air.coldest < air.ambient else "ambient"
+    less = f"a warmer environment.{start}" if cold else "less heat"
     return f"take a housing.material that grows as steel does, or {less}"

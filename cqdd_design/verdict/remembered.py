@@ -10,18 +10,13 @@ from cqdd_design.environment import cache_folder
 from cqdd_design.files.kept import entry_path, read_entry, write_entry
 from cqdd_design.files.package_state import package_state
 from cqdd_design.machine import Machine
-from cqdd_design.machine.temperatures import MachineTemperatures
 
 _MOST_KEPT = 5_000_000
 """Bytes of all numbers together: some thousand of them."""
 
 
 def remembered(
-    what: str,
-    machine: Machine,
-    warm: MachineTemperatures,
-    given: Sequence[float],
-    find: Callable[[], float],
+    what: str, machine: Machine, given: Sequence[float], find: Callable[[], float]
 ) -> float:
     """A number as the disk has it, or found and put there.
 
@@ -29,17 +24,15 @@ def remembered(
     ----------
     what : str
         Of which search.
-    warm : MachineTemperatures
-        From which the search starts.
     given : sequence of float
-        What else it starts from.
+        What the search starts from, beside the design and its motor.
     find : callable
         The search. Nothing is kept of one that raises.
     """
     text = json.dumps(
         [
             *(what, package_state(), sys.version, machine.given.sha256, machine.design.sha256),
-            *(repr(machine.motor), list(map(float, warm.steady)), list(map(float, given))),
+            *(repr(machine.motor), list(map(float, given))),
         ]
     )
     path = entry_path(cache_folder() / "numbers", text, "number")

@@ -36,6 +36,14 @@ def actuator() -> ActuatorParameters:
     return actuator_parameters(resolve(load_design(PAPER), free))
 
 
+@pytest.mark.parametrize("air", [-20.0, 60.0])
+def test_the_inertia_is_the_same_in_any_air(actuator: ActuatorParameters, air: float) -> None:
+    """By the magnets' constant at 25 degC it was 4 % more in warm air, and less in cold."""
+    there = changed(actuator, thermal={"ambient": air})
+    (found,) = run_bench(there, only=("actuator_inertia",)).metrics
+    assert found.value == pytest.approx(found.details["from_solids_kgm2"], rel=0.005)
+
+
 def changed(actuator: ActuatorParameters, **parts: dict[str, float]) -> ActuatorParameters:
     """The actuator with fields of its parts replaced: ``friction={"load_forward": 0.0}``."""
     new = {

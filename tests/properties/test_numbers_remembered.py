@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -37,28 +36,29 @@ def test_a_search_is_not_done_twice_and_another_start_searches_anew(judged: Judg
         asked.append(value)
         return value
 
-    first = remembered("torque", machine, warm, (1.5, True), find)
-    assert remembered("torque", machine, warm, (1.5, True), find) == first == 7.123456789012345
+    first = remembered("torque", machine, (*warm.steady, 1.5, True), find)
+    assert (
+        remembered("torque", machine, (*warm.steady, 1.5, True), find) == first == 7.123456789012345
+    )
     assert len(asked) == 1
-    warmer = replace(warm, steady=warm.steady + 1e-6)
     other = resolve(machine.given.replacing({"drive.thermal_resistance": 1.25}))
-    for what, of, state, given in (
-        ("cooling", machine, warm, (1.5, True)),
-        ("torque", machine, warm, (1.5, False)),
-        ("torque", machine, warmer, (1.5, True)),
-        ("torque", other, warm, (1.5, True)),
+    for what, of, given in (
+        ("cooling", machine, (*warm.steady, 1.5, True)),
+        ("torque", machine, (*warm.steady, 1.5, False)),
+        ("torque", machine, (*(warm.steady + 1e-6), 1.5, True)),
+        ("torque", other, (*warm.steady, 1.5, True)),
     ):
         before = len(asked)
-        assert remembered(what, of, state, given, lambda: find(2.0)) == 2.0
+        assert remembered(what, of, given, lambda: find(2.0)) == 2.0
         assert len(asked) == before + 1
 
 
 def test_what_raises_is_not_kept(judged: Judged) -> None:
-    machine, warm = judged
+    machine, _ = judged
 
     def none() -> float:
         raise DesignError("not known")
 
     with pytest.raises(DesignError):
-        remembered("torque", machine, warm, (), none)
-    assert remembered("torque", machine, warm, (), lambda: 3.0) == 3.0
+        remembered("torque", machine, (), none)
+    assert remembered("torque", machine, (), lambda: 3.0) == 3.0

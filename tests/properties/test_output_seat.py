@@ -163,6 +163,9 @@ def test_temperatures_that_are_not_known_leave_it_unknown(of_aluminium, warm) ->
     assert line.status == "fail"
     assert "housing.material" in line.remedy
     assert "warmer environment.coldest" in line.remedy
+    # A start may not be warmer than the air.
+    still = of_aluminium.changed({"environment.coldest": -50.0, "environment.ambient": -50.0})
+    assert "warmer environment.ambient" in output_seat_line(still, None).remedy
     of_steel = {"housing.material": SHAFT_MATERIAL}
     assert output_seat_line(arctic.changed(of_steel), None).status == "unknown"
     assert "at -55 (carrier plate)" in line.substituted

@@ -349,7 +349,9 @@ def actuator_inertia(parameters: ActuatorParameters) -> Metric:
         first, last = np.searchsorted(np.maximum.accumulate(speed), between)
         rises.append((speed[last] - speed[first]) / (run.time[last] - run.time[first]))
         mean.append(float(current[first:last].mean()))
-    value = motor.torque_constant * (mean[1] - mean[0]) / (rises[1] - rises[0])
+    # Magnets are as warm as the air in so short a run.
+    constant = float(torque_constant_at(motor, parameters.thermal.ambient))
+    value = constant * (mean[1] - mean[0]) / (rises[1] - rises[0])
     computed = (
         parameters.motor_side_inertia + parameters.gear.output_inertia / parameters.gear.ratio**2
     )
