@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cqdd_design.catalog.lubricants import find_lubricant
+from cqdd_design.catalog.lubricants import RUNNING_TEMPERATURE, find_lubricant
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design
 from cqdd_design.gearbox.balance import StackBalance
@@ -157,14 +157,28 @@ def _raceway_warning(state: GearboxState) -> tuple[str, ...]:
     )
 
 
+COLD_AIR = 10.0
+"""Below which the lubricant is several times as thick as its losses count it, deg C."""
+
+
 def _cold_warning(design: Design) -> tuple[str, ...]:
-    """A start that is colder than the lubricant works: no line judges its drag."""
+    """Air, and a start, in which the lubricant drags as no line judges it."""
     lubricant = find_lubricant(design.reducer.friction.lubricant)
-    coldest = design.environment.coldest
-    if coldest >= lubricant.coldest:
-        return ()
-    return (
-        f"environment.coldest {coldest:g} degC is below the {lubricant.coldest:g} degC down to "
-        f"which {lubricant.name} works: how it drags there is judged by no line; choose another "
-        "reducer.friction.lubricant, or warm the machine before it starts.",
-    )
+    coldest, air = design.environment.coldest, design.environment.ambient
+    told = []
+    if lubricant.coldest <= air < COLD_AIR:
+        thick = lubricant.viscosity_at(air) / lubricant.viscosity_at(RUNNING_TEMPERATURE)
+        told.append(
+            f"environment.ambient {air:g} degC: there the oil of {lubricant.name} is {thick:.0f} "
+            f"times as thick as at {RUNNING_TEMPERATURE:g} degC, at which efficiency and the lines "
+            "of the motor count it. Until it has warmed up the gearbox drags more, and less torque "
+            f"and speed are reached; `analyse --temperature '{air:g} degC'` tells what it loses "
+            "then."
+        )
+    if coldest < lubricant.coldest:
+        told.append(
+            f"environment.coldest {coldest:g} degC is below the {lubricant.coldest:g} degC down to "
+            f"which {lubricant.name} works: how it drags there is judged by no line; choose "
+            "another reducer.friction.lubricant, or warm the machine before it starts."
+        )
+    return tuple(told)

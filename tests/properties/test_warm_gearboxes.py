@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from cqdd_design.catalog.bearings import find_bearing
+from cqdd_design.catalog.lubricants import find_lubricant
 from cqdd_design.design import Design, load_design
 from cqdd_design.design.duty_log import DutyLog
 from cqdd_design.gearbox.heat.expansion import AS_DRAWN
@@ -157,6 +158,19 @@ def test_a_start_colder_than_the_lubricant_works_is_warned_of(light: Machine) ->
     (told,) = (one for one in cold.analysis.warnings if "environment.coldest" in one)
     assert "-40 degC is below the -30 degC down to which NLGI 2 grease works" in told
     assert not any("environment.coldest" in one for one in light.analysis.warnings)
+
+
+def test_cold_air_in_which_grease_drags_is_warned_of(light: Machine) -> None:
+    """A cold ambient only helped: more torque of the magnets, and grease at 40 degC."""
+    cold = light.changed({"environment.ambient": "-20 degC", "environment.coldest": "-25 degC"})
+    (told,) = (one for one in cold.analysis.warnings if "environment.ambient" in one)
+    grease = find_lubricant("NLGI 2 grease")
+    thick = grease.viscosity_at(-20.0) / grease.viscosity_at(40.0)
+    assert thick > 100.0
+    assert f"is {thick:.0f} times as thick as at 40 degC" in told
+    assert "analyse --temperature '-20 degC'" in told
+    mild = light.changed({"environment.ambient": "10 degC"})
+    assert not any("environment.ambient" in one for one in mild.analysis.warnings)
 
 
 def test_a_quick_cycle_has_no_state_of_its_own(warm: MachineTemperatures) -> None:
