@@ -43,6 +43,8 @@ class Card:
         Of kinematic error and stiffness: orders in a turn of the output, and coefficients.
     settings : mapping
         Client to configuration to setting to value.
+    ambient : float
+        deg C, at which K, resistance and what follows from them hold.
     """
 
     name: str
@@ -53,6 +55,7 @@ class Card:
     rows: tuple[Quantity, ...]
     harmonics: Mapping[str, object]
     settings: Mapping[str, Mapping[str, Mapping[str, object]]]
+    ambient: float
 
 
 def export_card(job: ExportJob) -> tuple[WrittenFile, ...]:
@@ -74,10 +77,11 @@ def actuator_card(
         design_sha256=design_sha256,
         side=side,
         ratio=parameters.gear.ratio,
-        constants=motor_constants(parameters.motor.torque_constant),
+        constants=motor_constants(side.motor_constant),
         rows=quantities(parameters, side),
         harmonics=_harmonics(parameters),
         settings=client_settings(parameters, side),
+        ambient=parameters.thermal.ambient,
     )
 
 
@@ -175,6 +179,12 @@ def _conventions(card: Card) -> tuple[tuple[str, str], ...]:
             f"current of field-oriented control: {card.constants['torque_per_peak']:.6g} N m/A "
             f"with its peak, {card.constants['torque_per_rms']:.6g} with its r.m.s. value. Convert "
             "before comparing.",
+        ),
+        (
+            "temperature",
+            f"K, resistance and what follows from them hold at {card.ambient:g} degC around the "
+            "actuator (environment.ambient), motor cold; the continuous torque at the winding's "
+            "limit.",
         ),
         (
             "reflection",

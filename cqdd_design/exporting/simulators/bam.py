@@ -93,7 +93,7 @@ def bam_document(
     drive, friction = parameters.drive, parameters.friction
     return {
         "kt": side.torque_constant,
-        "R": parameters.motor.resistance,
+        "R": side.resistance,
         "armature": side.reflected_inertia,
         "q_offset": 0.0,
         "command_delay": drive.delay,
@@ -119,6 +119,7 @@ def bam_document(
             f"{parameters.gear.ratio:g}.",
             "BAM looks up 'actuator' in its own table: register a class there under this name that "
             "computes torque from current with the limits above, as its Erob does.",
+            f"kt and R are those at {parameters.thermal.ambient:g} degC around the actuator.",
             "armature is the whole reflected inertia, that of the output side included.",
             "Not in this file, because BAM has no place for it: backlash, stiffness, ripple, "
             "cogging, inductance, heat; friction under load that grows faster above "

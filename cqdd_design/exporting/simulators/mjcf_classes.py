@@ -165,8 +165,8 @@ def _motor_attributes(model: MjcfActuator, step: float) -> dict[str, object]:
     attributes: dict[str, object] = {
         "gear": model.side.reduction,
         "resistance": motor.resistance,
-        "motorconst": numbers(motor.torque_constant, motor.torque_constant),
-        "saturation": numbers(_own_peak(parameters), drive.current_limit, 0.0),
+        "motorconst": numbers(model.side.motor_constant, model.side.motor_constant),
+        "saturation": numbers(_own_peak(model), drive.current_limit, 0.0),
         "thermal": numbers(
             resistance,
             0.0,
@@ -198,16 +198,16 @@ def _motor_attributes(model: MjcfActuator, step: float) -> dict[str, object]:
     return attributes
 
 
-def _own_peak(parameters: ActuatorParameters) -> float:
+def _own_peak(model: MjcfActuator) -> float:
     """The motor's own peak torque where the drive gives more, N m; 0, no limit, where not."""
-    motor_binds = parameters.peak_current < parameters.drive.current_limit
-    return parameters.motor.peak_torque if motor_binds else 0.0
+    most = model.parameters.peak_current
+    return model.side.motor_constant * most if most < model.parameters.drive.current_limit else 0.0
 
 
 def _torque(model: MjcfActuator) -> dict[str, object]:
     """Commanded in torque, up to what leaves the bench's stall torque after MuJoCo's friction."""
     parameters = model.parameters
-    most = parameters.motor.torque_constant * parameters.peak_current
+    most = model.side.motor_constant * parameters.peak_current
     stalled = effort_limit(parameters) / model.side.reduction + motor_breakaway(parameters)
     most = min(most, stalled)
     return {
@@ -316,7 +316,11 @@ def remarks(model: MjcfActuator, *, alone: bool) -> list[str]:
         "actuator_length is the motor's angle in the drive's sense.",
         "",
         "Constants: K in N m/A = V s/rad of the equivalent DC machine, resistance and inductance "
-        f"line to line. At full voltage: stall torque {number(side.stall_torque)} N m without and "
+        f"line to line. K is that at the {number(parameters.thermal.ambient)} degC around the "
+        "actuator and stays when the motor warms; resistance is stated at "
+        f"{number(parameters.motor.reference_temperature)} degC, and MuJoCo warms it.",
+        "",
+        f"At full voltage: stall torque {number(side.stall_torque)} N m without and "
         f"{number(side.peak_torque)} N m with {peak_limit(parameters)}, both before friction, "
         f"no-load speed {number(side.no_load_speed)} rad/s; reflected inertia "
         f"{number(side.reflected_inertia)} kg m^2, all at the joint. On a locked output the "
