@@ -21,11 +21,17 @@ from cqdd_design.actuator.joint_side import (
 )
 from cqdd_design.actuator.thermal import single_node
 from cqdd_design.catalog.motors import COPPER_COEFFICIENT
-from cqdd_design.exporting.simulators.stated import effort_limit, peak_limit, provenance
+from cqdd_design.exporting.simulators.stated import (
+    effort_limit,
+    overload_remark,
+    peak_limit,
+    provenance,
+)
 from cqdd_design.exporting.simulators.xml_text import element, identifier, number, numbers
 
 if TYPE_CHECKING:
     from cqdd_design.actuator.parameters import ActuatorParameters, FrictionParameters
+    from cqdd_design.machine.overload import Overload
 
 LEAST_RIPPLE = 0.01
 """Harmonics below this share of the largest are left out: each is an actuator to be stepped."""
@@ -49,12 +55,15 @@ class MjcfActuator:
         As given, made fit for an attribute.
     backlash : bool
         Whether a second hinge stands for it; without it the joint is rigid.
+    beyond : Overload or None
+        What the gearbox does not carry of the effort limit.
     """
 
     parameters: ActuatorParameters
     name: str
     design_sha256: str = "not given"
     backlash: bool = True
+    beyond: Overload | None = None
 
     def __post_init__(self) -> None:
         """Make the name fit for an attribute."""
@@ -328,6 +337,7 @@ def remarks(model: MjcfActuator, *, alone: bool) -> list[str]:
         "with the limit, which this file does not: the range of a commanded torque ends where the "
         f"output gives {number(effort_limit(parameters))} N m, what it gives stalled.",
         "",
+        *([overload_remark(model.beyond), ""] if model.beyond else []),
         _ripple_remark(model),
         "",
         "Not in this file, because MuJoCo has no place for it:",

@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 from cqdd_design.actuator.parameters import ActuatorParameters
+from cqdd_design.machine.overload import Overload, overload
 from cqdd_design.version import __version__
+
+if TYPE_CHECKING:
+    from cqdd_design.exporting.job import ExportJob
 
 DEAD_MASS = 1e-3
 """kg for the output body of a model, as clients refuse zero; its mass is in the housing's. Without
@@ -30,6 +35,21 @@ def peak_limit(parameters: ActuatorParameters) -> str:
         amperes = f"{parameters.peak_current:.4g} of the drive's {parameters.drive.current_limit:g}"
         return f"the motor's own peak torque, {amperes} A"
     return "the drive's current limit"
+
+
+def effort_overload(job: ExportJob) -> Overload | None:
+    """What the gearbox does not carry of the effort that a job's files allow."""
+    return overload(job.machine, effort_limit(job.actuator))
+
+
+def overload_remark(beyond: Overload | None) -> str:
+    """What the gearbox does not carry of the effort limit, in sentences; empty where it does."""
+    if beyond is None:
+        return ""
+    return (
+        f"Motor and drive give up to {beyond.torque:.3g} N*m, the effort limit of simulators' "
+        f"files; {beyond.told}. Keep commands and shocks below what it carries, in training too."
+    )
 
 
 def value_of(parameters: ActuatorParameters, name: str) -> float:
