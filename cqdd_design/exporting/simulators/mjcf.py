@@ -27,7 +27,7 @@ from cqdd_design.exporting.simulators.mjcf_classes import (
     remarks,
     time_step,
 )
-from cqdd_design.exporting.simulators.stated import DEAD_MASS, effort_overload
+from cqdd_design.exporting.simulators.stated import DEAD_MASS, effort_overload, mass_remark
 from cqdd_design.exporting.simulators.xml_text import comment, element, identifier, number, numbers
 from cqdd_design.files import WrittenFile, write_atomically
 
@@ -107,7 +107,7 @@ def model_text(model: MjcfActuator) -> str:
             element("actuatorfrc", {"name": "motor-torque", "actuator": name}),
         )
     )
-    head = [f"{name}: test model of one actuator for MuJoCo 4.", ""]
+    head = [f"{name}: test model of one actuator for MuJoCo 4.", "", mass_remark(parameters), ""]
     return (
         f"{comment([*head, *remarks(model, alone=True)])}\n"
         + element("mujoco", {"model": name}, *sections)

@@ -29,6 +29,15 @@ def effort_limit(parameters: ActuatorParameters) -> float:
     return stall_torque(parameters).value
 
 
+def mass_remark(parameters: ActuatorParameters) -> str:
+    """Where the mass of an actuator's own model stands, in a sentence."""
+    return (
+        f"Mass: {DEAD_MASS:g} kg of the output is a placeholder, since clients refuse none. All of "
+        f"the actuator, {parameters.mass:.4g} kg, is in the housing, what turns with the output "
+        "included; the mass of what is driven belongs into the output's link."
+    )
+
+
 def peak_limit(parameters: ActuatorParameters) -> str:
     """Where the peak torque ends, for a sentence."""
     if parameters.peak_current < parameters.drive.current_limit:

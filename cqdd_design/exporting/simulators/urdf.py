@@ -16,6 +16,7 @@ from cqdd_design.exporting.simulators.stated import (
     DEAD_MASS,
     effort_limit,
     effort_overload,
+    mass_remark,
     overload_remark,
     peak_limit,
     provenance,
@@ -157,6 +158,8 @@ def _remarks(
         f"{number(friction.load_backward)} when the output drives, {number(friction.load_growth)} "
         f"of itself more above {number(friction.load_knee)} N m), backlash of "
         f"{number(parameters.gear.backlash)} rad, stiffness, ripple, heat.",
+        "",
+        mass_remark(parameters),
         "",
         "Inertia: the output link has that of the output side, "
         f"{number(side.output_inertia)} kg m^2. Rotor and crank, "
