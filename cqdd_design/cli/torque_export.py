@@ -10,6 +10,7 @@ import typer
 from cqdd_design.cli import completion
 from cqdd_design.cli.options import Force, option
 from cqdd_design.cli.session import Output
+from cqdd_design.cli.tables import folded
 from cqdd_design.environment import output_folder
 from cqdd_design.exporting.estimators.kinds import KINDS
 from cqdd_design.exporting.kinds import read_kinds
@@ -36,6 +37,7 @@ def export_network(
     from cqdd_design.exporting.estimators.options import metadata
     from cqdd_design.torque.evaluation.lineup import carried
     from cqdd_design.torque.networks.artefact import read_artefact
+    from cqdd_design.torque.networks.meaning import meaning
 
     kinds = read_kinds(to, KINDS)
     artefact = read_artefact(model)
@@ -47,6 +49,8 @@ def export_network(
         force=force or folder is None,
     )
     out.warn(*written.warnings)
+    told = meaning(artefact)
+    out.say(*folded(told.joint_told), "", *folded(told.filter_told), "")
     if kept := carried(artefact):
         out.say(kept, "")
     out.warn(*(f"{one.kind} was not written: {one.error.message}" for one in written.refused))

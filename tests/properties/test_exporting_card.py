@@ -161,6 +161,7 @@ def test_markdown_tells_both_sides_with_numbers_and_what_was_not_run() -> None:
     assert "catalogue (speed constant 55 rpm/V)" in text
     assert "v = R i + L di/dt + K w" in text
     assert "not run" in text
+    assert "with a network of `torque export` set armature, friction and damping" in text
     assert f"cqdd-design {__version__}" in text
     rows = [line for line in text.splitlines() if line.startswith("| backlash, whole")]
     assert len(rows) == 2

@@ -221,7 +221,9 @@ def _conventions(card: Card) -> tuple[tuple[str, str], ...]:
             "armature",
             "Settings named armature hold rotor and crank only, as the output side's "
             f"{side.output_inertia:.6g} kg m^2 belong into the driven link's inertia; where they "
-            f"are not in it set {side.reflected_inertia:.6g}.",
+            f"are not in it set {side.reflected_inertia:.6g}. A learned torque has all of it, and "
+            "friction and damping, in itself: with a network of `torque export` set armature, "
+            "friction and damping of the joint to 0.",
         ),
     )
 
