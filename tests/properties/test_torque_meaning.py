@@ -97,6 +97,9 @@ def test_the_c_header_says_it_and_has_the_labels_range() -> None:
     assert "#define NET_TORQUE_LEAST (-142.0f)" in text
     assert "#define NET_TORQUE_MOST (120.0f)" in text
     assert all(len(line) <= 100 for line in text[: text.index("*/")].splitlines())
+    of_design = {**SIMULATED, "design_sha256": "c0ffee" * 8, "design": "a */ joint"}
+    kept = words(header_text(told_by(data=of_design), "net"))
+    assert "it was trained on, that of a - joint (sha256 c0ffeec0)" in kept
     old = words(header_text(told_by(data=SIMULATED), "net"))
     assert "torque -90 to 90 N m, limit of the actuator; the labels' own range is not" in old
 

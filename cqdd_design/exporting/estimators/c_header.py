@@ -18,6 +18,7 @@ from cqdd_design.exporting.estimators import c_physics
 from cqdd_design.exporting.estimators.c_text import ACTIVATIONS, array, filled, template
 from cqdd_design.exporting.estimators.options import Export
 from cqdd_design.files import write_atomically
+from cqdd_design.torque.evaluation.carried import carried
 from cqdd_design.torque.networks.folded import folded_gru, folded_mlp
 from cqdd_design.torque.networks.meaning import meaning
 
@@ -127,6 +128,7 @@ def _comment(artefact: Artefact, actuator: ActuatorParameters | None) -> str:
         " *",
         *_wrapped(told.filter_told),
         " *",
+        *([*_wrapped(_plain(kept)), " *"] if (kept := carried(artefact)) else []),
         f" * Mode: {artefact.mode}, {held}.",
         *(
             [" * Until there are so many, @name@_ready is 0 and the torque is 0."]
