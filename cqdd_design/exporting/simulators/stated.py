@@ -56,7 +56,7 @@ def overload_remark(beyond: Overload | None) -> str:
     if beyond is None:
         return ""
     return (
-        f"Motor and drive give up to {beyond.torque:.3g} N*m, the effort limit of simulators' "
+        f"Motor and drive give up to {beyond.torque:.3g} N*m, the effort limit in these "
         f"files; {beyond.told}. Keep commands and shocks below what it carries, in training too."
     )
 
