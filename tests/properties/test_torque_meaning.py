@@ -69,6 +69,14 @@ def test_every_committed_network_says_so() -> None:
         assert found.passed == Filter(), path
 
 
+def test_numbers_of_a_file_from_elsewhere_stay_finite() -> None:
+    slow = {"filter_frequency_Hz": 1e-310, "filter_damping_ratio": 1.0}
+    wide = {name: [-1e308, 1e308] for name in ("label_range_Nm", "speed_range_rad_per_s")}
+    told = told_by(data=SIMULATED, signals_filter=slow, **wide)
+    assert meaning(told).envelope == {}
+    assert json.dumps(metadata(told, "window") | {"facts": {}}, allow_nan=False)
+
+
 @pytest.mark.parametrize(
     ("data", "on_load", "said"),
     [

@@ -8,6 +8,7 @@ made of the motor's current are before the gearbox.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -110,7 +111,7 @@ class Meaning:
         if self.labels is None or self.speeds is None:
             return {}
         effort, speed = (max(map(abs, both)) for both in (self.labels, self.speeds))
-        if not min(effort, speed) > 0.0:
+        if not (min(effort, speed) > 0.0 and math.isfinite(2.0 * max(effort, speed))):
             return {}
         return {
             "effort_limit": effort,
@@ -182,7 +183,8 @@ def label_facts(data: DataSet, episodes: tuple[Episode, ...]) -> dict[str, Any]:
 def _filter(told: object) -> Filter | None:
     if not isinstance(told, Mapping):
         return None
-    return Filter(*(float(told[key]) for key in _FILTER))
+    found = Filter(*(float(told[key]) for key in _FILTER))
+    return found if math.isfinite(found.delay) else None
 
 
 def _range(told: object) -> Range | None:
