@@ -26,8 +26,8 @@ from cqdd_design.files import write_atomically
 from cqdd_design.torque.data import pendulum
 from cqdd_design.torque.data.episodes import Episode
 from cqdd_design.torque.data.sensing import SensorChain
+from cqdd_design.torque.evaluation.carried import actuator_of
 from cqdd_design.torque.evaluation.estimator import Estimator, network_estimator
-from cqdd_design.torque.evaluation.lineup import actuator_of
 from cqdd_design.torque.networks.artefact import read_artefact
 
 REPOSITORY = Path(__file__).resolve().parents[1]

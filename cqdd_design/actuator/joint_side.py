@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cqdd_design.actuator.load_friction import carried_torque
-from cqdd_design.actuator.motor import no_load_speed, torque_constant_at
+from cqdd_design.actuator.motor import no_load_speed, resistance_at, torque_constant_at
 from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray, FrictionParameters
 from cqdd_design.actuator.thermal import continuous_current
 from cqdd_design.errors import DesignError
@@ -33,7 +33,7 @@ _LEAST_SLOPE = 0.05
 
 @dataclass(frozen=True)
 class JointSide:
-    """An actuator seen from its joint.
+    """An actuator seen from its joint, motor as warm as what is around it.
 
     Attributes
     ----------
@@ -41,6 +41,8 @@ class JointSide:
         n, positive.
     crank_sense : int
         +1 or -1: sense of the crank for a positive command.
+    motor_constant, resistance : float
+        K of the motor, N m/A, and its resistance from line to line, ohm.
     torque_constant : float
         Torque at the joint over current, without losses, N m/A.
     stall_torque : float
@@ -53,8 +55,7 @@ class JointSide:
     ideal_speed : float
         Full voltage over back-EMF constant, no friction, rad/s.
     no_load_speed : float
-        With the friction of both sides, at full voltage and reference temperature, rad/s; 0 where
-        friction holds the motor.
+        With the friction of both sides, at full voltage, rad/s; 0 where friction holds the motor.
     corner_speed : float
         Up to here the peak torque is available at full voltage, no friction, rad/s.
     motor_inertia, output_inertia, reflected_inertia : float
@@ -69,6 +70,8 @@ class JointSide:
 
     reduction: float
     crank_sense: int
+    motor_constant: float
+    resistance: float
     torque_constant: float
     stall_torque: float
     peak_torque: float
@@ -89,22 +92,27 @@ def joint_side(parameters: ActuatorParameters) -> JointSide:
     """Reflect an actuator to its joint."""
     motor, drive, friction = parameters.motor, parameters.drive, parameters.friction
     thermal, volts = parameters.thermal, drive.supply_voltage
-    n = abs(parameters.gear.ratio)
-    constant = n * motor.torque_constant
-    stall_current = volts / motor.resistance
+    n, at = abs(parameters.gear.ratio), thermal.ambient
+    # As the bench runs it: cold, at the temperature of the place.
+    motor_constant = float(torque_constant_at(motor, at))
+    resistance = float(resistance_at(motor, at))
+    constant = n * motor_constant
+    stall_current = volts / resistance
     peak_current = min(stall_current, parameters.peak_current)
     held = min(continuous_current(motor, thermal), peak_current)
     held *= float(torque_constant_at(motor, thermal.most))
     return JointSide(
         reduction=n,
         crank_sense=int(math.copysign(1.0, parameters.gear.ratio)),
+        motor_constant=motor_constant,
+        resistance=resistance,
         torque_constant=constant,
         stall_torque=constant * stall_current,
         peak_torque=constant * peak_current,
         continuous_torque=n * held,
         ideal_speed=volts / constant,
-        no_load_speed=idle_speed(parameters, motor.reference_temperature),
-        corner_speed=(volts - peak_current * motor.resistance) / constant,
+        no_load_speed=idle_speed(parameters, at),
+        corner_speed=(volts - peak_current * resistance) / constant,
         motor_inertia=n**2 * parameters.motor_side_inertia,
         output_inertia=parameters.gear.output_inertia,
         reflected_inertia=parameters.reflected_inertia,

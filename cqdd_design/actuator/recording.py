@@ -14,7 +14,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +26,9 @@ from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.scenario import Chirp, Command, Load, Sampled, Scenario, Signal, Sine
 from cqdd_design.actuator.simulate import Simulation
 from cqdd_design.errors import DependencyError, UsageError
+
+if TYPE_CHECKING:
+    from cqdd_design.machine.overload import Overload
 
 MOST_VALUES = 50_000_000
 """Numbers in a file: 400 MB."""
@@ -158,6 +161,8 @@ class Recording:
         Whether there is a column ``set``.
     options : mapping of str to str
         What was asked for, defaults included, as unit strings.
+    beyond : Overload or None
+        What the gearbox does not carry of the greatest torque in it.
     """
 
     parameters: tuple[ActuatorParameters, ...]
@@ -169,6 +174,7 @@ class Recording:
     design_sha256: str = ""
     version: str = ""
     options: Mapping[str, str] = field(default_factory=dict)
+    beyond: Overload | None = None
 
     def columns(self) -> dict[str, NDArray[Any]]:
         """All columns by name with unit; a reference in its own unit beside what it commands."""
@@ -264,6 +270,11 @@ class Recording:
             if share > 0.0:
                 told.append(f"the {name} of {limit:g} {unit} binds in {share:.2%} of the records.")
         told += filter(None, [beyond_peak(first.motor, run.current)])
+        if self.beyond is not None:
+            told.append(
+                f"the torque in the gearbox reaches {self.beyond.torque:.3g} N*m, which the "
+                f"simulation lets it carry; {self.beyond.told}."
+            )
         orders = max(int(np.max(one.gear.error_orders, initial=0)) for one in self.parameters)
         swept = orders * float(np.max(np.abs(run.output_speed))) * run.step
         if swept > 1.0:

@@ -76,7 +76,7 @@ def bench(
     from cqdd_design.roads.bench import data_sheet, write_traces
     from cqdd_design.units import STIFFNESS_GAIN, VOLTAGE
 
-    names = parse_names(only)
+    names = None if only is None else parse_names(only)
     asked = parse_positive("--voltage", voltage, VOLTAGE)
     others = tuple(name.strip() for name in (beside or "").split(";") if name.strip())
     loaded = read_design(out, design, motor, motor_file)
@@ -94,7 +94,7 @@ def bench(
     result, judged = found.result, found.verdict
     files = () if folder is None else write_traces(result, folder, force=force)
     out.say(*_lines(result))
-    if others or not names:
+    if others or names is None:
         out.say("", *_comparison(found.actuators))
     if judged is not None:
         told = on_screen(judged.sentence, sys.stdout)

@@ -55,6 +55,7 @@ def evaluate(
     from cqdd_design.files import kind_by_ending, refuse_overwrite, write_atomically
     from cqdd_design.torque.data.episodes import read_data
     from cqdd_design.torque.evaluation.behaviour import Effort
+    from cqdd_design.torque.evaluation.carried import DesignVersion
     from cqdd_design.torque.evaluation.documents import result_dict
     from cqdd_design.torque.evaluation.evaluate import evaluate as measure
     from cqdd_design.torque.evaluation.lineup import line_up, read_networks
@@ -68,12 +69,15 @@ def evaluate(
     )
     known = read_data(data)
     networks = read_networks(model or [], known)
-    actuator = None
+    actuator = version = None
     if design is not None:
         loaded = read_design(out, design, motor, motor_file)
+        version = DesignVersion(loaded.name, loaded.sha256)
         actuator = data_actuator(out, known, loaded, None, calibration)
     names = parse_names(sets)
-    lineup = line_up(known, networks, names, split_seed=split_seed, actuator=actuator)
+    lineup = line_up(
+        known, networks, names, split_seed=split_seed, actuator=actuator, design=version
+    )
     out.warn(*lineup.warnings)
     work = len(lineup.estimators) * (len(lineup.sets) + 1)
     result = measure(

@@ -137,7 +137,7 @@ CalibrationLike: TypeAlias = PathLike | Calibrated
 def bench(
     design: DesignLike,
     *,
-    only: str | Sequence[str] = (),
+    only: str | Sequence[str] | None = None,
     voltage: Quantity | None = None,
     rig_stiffness: Quantity | None = None,
     seed: int | None = None,
@@ -180,7 +180,7 @@ def bench(
     Raises
     ------
     UsageError
-        No such measurement; a quantity that cannot be read; a file that exists.
+        No such measurement, or none selected; a quantity that cannot be read; a file that exists.
     CatalogError
         No such actuator.
     DesignError
@@ -206,7 +206,7 @@ def bench(
     found = data_sheet(
         loaded,
         specimen,
-        only=names("only", only, "mass"),
+        only=None if only is None else names("only", only, "mass"),
         voltage=si_value("voltage", voltage, VOLTAGE, positive=True),
         rig_stiffness=si_value("rig_stiffness", rig_stiffness, STIFFNESS_GAIN, positive=True),
         beside=names("beside", beside, "CubeMars AK10-9 V2 KV60"),

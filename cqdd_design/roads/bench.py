@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from cqdd_design.actuator.bench import BenchResult, run_bench
+from cqdd_design.actuator.bench.metric import refuse_unselected
 from cqdd_design.actuator.bench.run import VOLTAGE
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.comparison import (
@@ -74,7 +75,7 @@ def data_sheet(
     design: Design,
     specimen: Specimen = AS_DRAWN,
     *,
-    only: tuple[str, ...] = (),
+    only: tuple[str, ...] | None = None,
     voltage: float | None = None,
     rig_stiffness: float | None = None,
     beside: Sequence[str] = (),
@@ -91,12 +92,15 @@ def data_sheet(
     ------
     CatalogError
         For a name that is none of them, before anything is measured.
+    UsageError
+        For rows that do not exist, or an empty selection of them.
     """
+    refuse_unselected(only)
     for name in beside:
         catalogue_actuator(name)
     machine = specimen.machine(design)
     parameters, result = measure(machine, specimen, only, voltage, progress, rig_stiffness)
-    verdict = None if only else judge(machine, specimen)
+    verdict = judge(machine, specimen) if only is None else None
     return DataSheet(parameters, result, compared_actuators(design, result, beside), verdict)
 
 
@@ -104,7 +108,7 @@ def bench(
     design: Design,
     specimen: Specimen = AS_DRAWN,
     *,
-    only: tuple[str, ...] = (),
+    only: tuple[str, ...] | None = None,
     voltage: float | None = None,
     rig_stiffness: float | None = None,
     progress: Progress = silent,
@@ -116,7 +120,7 @@ def bench(
     specimen : Specimen
         Without a seed perfect parts are measured, and backlash and ripple are those of drawn ones.
     only : tuple of str
-        Names of measurements; default all.
+        Names of measurements, one at least; default all.
     voltage : float, optional
         Supply of the dynamic rows, V; default the paper's 24 V.
     rig_stiffness : float, optional
@@ -131,14 +135,15 @@ def bench(
 def measure(
     machine: Machine,
     specimen: Specimen,
-    only: tuple[str, ...] = (),
+    only: tuple[str, ...] | None = None,
     voltage: float | None = None,
     progress: Progress = silent,
     rig_stiffness: float | None = None,
 ) -> tuple[ActuatorParameters, BenchResult]:
     """Parameters of a machine's actuator, and what the bench measures on it; see `bench`."""
+    refuse_unselected(only)
     parameters = actuator_parameters(machine, specimen)
-    rippling = specimen.seed is None and (not only or not _DRAWN_ROWS.isdisjoint(only))
+    rippling = specimen.seed is None and (only is None or not _DRAWN_ROWS.isdisjoint(only))
     drawn, told = drawn_actuators(machine, specimen) if rippling else ([], ())
     result = run_bench(
         parameters,

@@ -9,13 +9,12 @@ from pathlib import Path
 from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.catalog.printing import printed_materials
 from cqdd_design.design import Design
-from cqdd_design.errors import DesignError
 from cqdd_design.exporting import ExportOptions
 from cqdd_design.exporting import export as write
 from cqdd_design.exporting.kinds import KINDS, ExportKind, read_kinds
 from cqdd_design.exporting.options import DEFAULTS
 from cqdd_design.files import WrittenFile
-from cqdd_design.machine.carrying import carried_up_to
+from cqdd_design.machine.overload import overload
 from cqdd_design.roads.telling import Progress, silent
 
 _BY_WIRE = ("edm", "gcode")
@@ -99,20 +98,12 @@ def _not_carried(design: Design, kinds: str | Iterable[str], specimen: Specimen)
     if not simulated:
         return ()
     from cqdd_design.actuator.build import actuator_parameters
-    from cqdd_design.exporting.simulators.stated import effort_limit
+    from cqdd_design.exporting.simulators.stated import effort_limit, overload_remark
 
     machine = specimen.machine(design)
     most = effort_limit(actuator_parameters(machine, specimen))
-    try:
-        carried = carried_up_to(machine, most)
-    except DesignError as error:
-        return (f"whether the gearbox carries {most:.3g} N*m is not known: {error.message}",)
-    if not carried.limits or carried.limits[0].torque >= most:
-        return ()
-    return (
-        f"{', '.join(simulated)}: motor and drive give up to {most:.3g} N*m, the effort limit in "
-        f"these files; {carried.told(most)}. Keep commands and shocks below that in training too.",
-    )
+    told = overload_remark(overload(machine, most))
+    return (f"{', '.join(simulated)}: {told[0].lower()}{told[1:]}",) if told else ()
 
 
 def _uncut(design: Design, kinds: str | Iterable[str]) -> tuple[str, ...]:

@@ -6,6 +6,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
+
 from cqdd_design.actuator.bench.steady import with_voltage
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.recording import (
@@ -22,6 +24,7 @@ from cqdd_design.design import Design
 from cqdd_design.environment import output_folder
 from cqdd_design.errors import DesignError, UsageError
 from cqdd_design.files import WrittenFile, kind_by_ending, refuse_overwrite, write_with
+from cqdd_design.machine.overload import overload
 from cqdd_design.version import __version__
 
 
@@ -79,16 +82,18 @@ def simulate(
         if progress is not None:
             progress(len(sets), len(seeds))
     steps = plan(sets, scenario, duration, rate, step)
+    found = run(sets, scenario, duration, steps.step, every=steps.every)
     return Recording(
         parameters=tuple(sets),
         scenario=scenario,
-        simulation=run(sets, scenario, duration, steps.step, every=steps.every),
+        simulation=found,
         rate=steps.rate,
         seeds=seeds,
         numbered=samples is not None,
         design_sha256=design.sha256,
         version=__version__,
         options=options or {},
+        beyond=overload(machine, float(np.max(np.abs(found.gear_torque)))),
     )
 
 

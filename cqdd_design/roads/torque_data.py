@@ -85,7 +85,7 @@ def generate(
     told = _limits_met(facts)
     if told:
         warnings = (*warnings, told)
-    facts = {**facts, "infeasible": data.facts["infeasible"]}
+    facts |= {key: data.facts[key] for key in ("infeasible", "beyond_gearbox")}
     return GeneratedData(target, files, facts, warnings)
 
 

@@ -163,6 +163,11 @@ FACTS = table(
         ),
         "choice": maybe(CHOICE),
         "actuator": maybe(table_of(anything)),
+        "label_range_Nm": maybe(list_of(number, 2, 2)),
+        "speed_range_rad_per_s": maybe(list_of(number, 2, 2)),
+        "signals_filter": maybe(
+            table({"filter_frequency_Hz": positive, "filter_damping_ratio": positive})
+        ),
         "validation_rmse_Nm": maybe(not_negative),
         "training_rmse_Nm": maybe(not_negative),
         "leaked_rmse_Nm": maybe(not_negative),

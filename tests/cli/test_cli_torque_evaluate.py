@@ -232,6 +232,19 @@ def test_what_was_trained_on_is_not_scored(evaluate, place, data, tmp_path):
     assert "rmse_Nm" in document["results"]["models"]["pd-law"]
 
 
+def test_a_network_of_another_version_of_the_design_is_told(evaluate, data, tmp_path):
+    """Without --design: by the digests that data and network hold."""
+    told = {"design": "a-joint", "design_sha256": "1" * 64}
+    write_data(replace(data, facts={**data.facts, **told}), tmp_path / "data")
+    for digest, there in (("1" * 64, False), ("2" * 64, True)):
+        facts = {"data": {**told, "design_sha256": digest}}
+        write_artefact(network("mlp", 2, facts=facts), Path("net.npz"))
+        done = evaluate("--data", "data", "--model", "net.npz", "--draws", "100", "--rollouts", "0")
+        assert done.code == 0, done.err
+        said = " ".join(done.err.split())
+        assert ("(sha256 22222222) and not of a-joint (sha256 11111111)" in said) is there
+
+
 def test_a_network_of_other_data_is_scored_though_names_agree(evaluate, place, data):
     """Two data sets name their episodes alike; only the hash tells whether they are the same."""
     everything = [one.name for one in data.episodes]

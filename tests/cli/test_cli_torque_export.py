@@ -85,6 +85,22 @@ def test_torchscript_tells_nothing_of_the_place_it_was_made_at(printed, model, t
         assert float(found) == pytest.approx(wanted, abs=1e-4)
 
 
+def test_what_the_torque_is_and_of_which_design_is_told(printed, model, tmp_path):
+    """In the terminal; with the design of today whether that is the one of the training."""
+    data = {"source": "simulated", "design": "cqdd-10", "design_sha256": "a" * 64}
+    write_artefact(network(mode="window", facts={"data": data}), model)
+    design = Path(__file__).parents[2] / "designs" / "cqdd-10.toml"
+    out = session.Output("export", as_json=False, quiet=False)
+    export_network(out, model, "c", tmp_path / "out", design=design)
+    said = " ".join(printed.getvalue().split())
+    assert "Set armature, damping and friction of the joint to 0" in said
+    assert "low-pass of second order (80 Hz" in said
+    assert "that of cqdd-10 (sha256 aaaaaaaa)" in said
+    assert any("the design has moved on" in one for one in out.warnings)
+    with pytest.raises(UsageError, match="--motor belongs to a design"):
+        export_network(out, model, "c", tmp_path / "other", motor="any")
+
+
 def test_the_same_network_gives_the_same_bytes(printed, model, tmp_path):
     pytest.importorskip("onnxruntime")
     for name in ("a", "b"):

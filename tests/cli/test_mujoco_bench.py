@@ -22,6 +22,7 @@ from actuator_samples import paper_actuator, without_ripple
 
 from cqdd_design.actuator.bench import steady
 from cqdd_design.actuator.build import actuator_parameters
+from cqdd_design.actuator.joint_side import joint_side
 from cqdd_design.actuator.packing import safe_step
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.scenario import Command, Constant, Load, Sampled, Scenario, Start
@@ -229,6 +230,27 @@ def test_no_load_speed(
     measured = steady.no_load_speed(p, volts).value * math.pi / 30.0
     what = f"MuJoCo: no-load speed, {kind}, {'with' if backlash else 'without'} backlash"
     validated(what, "our bench", abs(found / measured - 1.0), CLOSE)
+
+
+@pytest.mark.parametrize("ambient", [-20.0, 60.0])
+def test_no_load_speed_in_the_cold_and_in_the_heat(
+    actuators: dict[str, ActuatorParameters], ambient: float
+) -> None:
+    """Magnets and winding are as warm as the place, on the bench and in the file."""
+    p = actuators["perfect"]
+    thermal = dataclasses.replace(p.thermal, ambient=ambient)
+    p = dataclasses.replace(p, thermal=thermal)
+    volts = p.drive.supply_voltage
+    model, data = load(model_text(MjcfActuator(p, "a", backlash=False)))
+    data.ctrl[0] = volts
+    speeds = []
+    while data.time < 1.0:
+        mujoco.mj_step(model, data)
+        speeds.append(float(data.sensordata[1]))
+    found = float(np.mean(speeds[len(speeds) // 2 :]))
+    measured = steady.no_load_speed(p, volts).value * math.pi / 30.0
+    assert found == pytest.approx(measured, rel=1e-4)
+    assert joint_side(p).no_load_speed == pytest.approx(measured, rel=1e-3)
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -35,11 +35,17 @@ torch.set_num_threads(1)
 TOLERANCE = 1e-5
 WIDE = 1e6
 """Limits of the clients' motor envelopes, out of the way."""
+KNOWN = {
+    "data": {"source": "simulated"},
+    "label_range_Nm": [-200.0, 90.0],
+    "speed_range_rad_per_s": [-9.0, 8.0],
+}
+"""Of a network whose file says what its labels are."""
 STREAMING = {"pva": network(), "pv": network(inputs=PV, seed=2)}
 WINDOWS = {
     "pva-gru": network(mode="window", history=12),
     "pv-gru": network(inputs=PV, mode="window", history=12, seed=2),
-    "mlp": network("mlp", inputs=PV),
+    "mlp": network("mlp", inputs=PV, facts=KNOWN),
     "mlp-acceleration": network("mlp", activation="tanh"),
 }
 
@@ -107,7 +113,7 @@ def test_onnxruntime_runs_windows(tmp_path, artefact):
     assert told["inputs"] == list(artefact.inputs)
     assert told["sample_dt_s"] == DT
     assert told["position_gain_Nm_per_rad"] == 60.0
-    assert told["torque_range_Nm"] == [-90.0, 90.0]
+    assert told["torque_range_Nm"] == artefact.facts.get("label_range_Nm", [-90.0, 90.0])
 
 
 # Isaac Lab --------------------------------------------------------------------------------------
@@ -226,6 +232,26 @@ def test_isaaclab_runs_windows_in_its_mlp_class(tmp_path, isaaclab, name):
     assert np.sign(steady[-1][0]) == np.sign(golden(artefact))
 
 
+def test_isaaclab_takes_the_limits_and_the_bare_joint_of_the_settings(tmp_path, isaaclab):
+    """What the training's labels reach is not clipped, and nothing of the actuator is left."""
+    facts = {
+        "data": {"source": "simulated"},
+        "label_range_Nm": [-120.0, 150.0],
+        "speed_range_rad_per_s": [-9.0, 8.0],
+    }
+    artefact = network("mlp", inputs=PV, facts=facts)
+    export_artefact(artefact, ["torchscript-isaaclab"], tmp_path, "net")
+    actuator = isaaclab_actuator(isaaclab, "ActuatorNetMLP", tmp_path / "net-isaaclab-mlp.json")
+    assert float(actuator.effort_limit.max()) == 150.0
+    for name in ("armature", "friction", "dynamic_friction", "viscous_friction"):
+        assert float(getattr(actuator, name).max()) == 0.0
+    error, velocity = two_joints(60)
+    found = isaaclab_run(isaaclab, actuator, error, velocity)
+    wanted = wanted_torque(artefact, error, velocity)
+    full = artefact.history
+    np.testing.assert_allclose(found[full:], wanted[full:], atol=TOLERANCE, rtol=0.0)
+
+
 @pytest.mark.parametrize("name", list(STREAMING))
 def test_isaaclab_streams_a_gru_in_its_lstm_class(tmp_path, isaaclab, name):
     artefact = STREAMING[name]
@@ -293,8 +319,12 @@ def test_mjlab_runs_windows(tmp_path, mjlab, name):
     told = json.loads((tmp_path / "net-mjlab.json").read_text())
     own = told["configuration"]
     own["network_file"] = str(tmp_path / own["network_file"])
-    limits = {"effort_limit": WIDE, "saturation_effort": WIDE, "velocity_limit": WIDE}
-    configuration = mjlab.LearnedMlpActuatorCfg(target_names_expr=(".*",), **limits, **own)
+    own = dict.fromkeys(("effort_limit", "saturation_effort", "velocity_limit"), WIDE) | own
+    configuration = mjlab.LearnedMlpActuatorCfg(target_names_expr=(".*",), **own)
+    if name == "mlp":
+        joint = (configuration.armature, configuration.frictionloss, configuration.viscous_damping)
+        assert joint == (0.0, 0.0, 0.0)
+        assert configuration.effort_limit == 200.0
     entity = SimpleNamespace(indexing=SimpleNamespace(ctrl_ids=torch.zeros(0, dtype=torch.long)))
     actuator = configuration.build(entity, [0, 1], ["a", "b"])
     actuator.initialize(None, None, SimpleNamespace(nworld=1), "cpu")

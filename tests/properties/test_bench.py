@@ -370,6 +370,8 @@ def test_every_measurement_of_the_papers_actuator(actuator: ActuatorParameters) 
 def test_bad_requests(actuator: ActuatorParameters) -> None:
     with pytest.raises(UsageError, match="did you mean 'backlash'"):
         run_bench(actuator, only=["backlsh"])
+    with pytest.raises(UsageError, match=r"no measurement is selected; .* torque_ripple"):
+        run_bench(actuator, only=())
     with pytest.raises(UsageError, match="above 0"):
         run_bench(actuator, voltage=0.0)
     with pytest.raises(UsageError, match="--rig-stiffness -1"):

@@ -110,6 +110,22 @@ def test_every_parameter_is_on_the_card() -> None:
             assert card_yaml(actuator_card(changed, "paper")) != before, f"{part}.{one.name}"
 
 
+def test_constants_are_those_at_the_temperature_of_the_place() -> None:
+    p = paper_actuator()
+    hot = dataclasses.replace(p, thermal=dataclasses.replace(p.thermal, ambient=60.0))
+    card = actuator_card(hot, "paper")
+    k, r = 0.178 * (1.0 - 0.0011 * 35.0), 0.098 * (1.0 + 0.0039 * 35.0)
+    own = card.settings["mujoco"]["dcmotor"]
+    assert (own["motorconst"], own["resistance"]) == pytest.approx((k, r))
+    assert card.settings["bam"]["m5"]["kt"] == pytest.approx(10.0 * k)
+    assert card.settings["isaac_lab"]["DCMotorCfg"]["velocity_limit"] == pytest.approx(2.4 / k)
+    rows = {row.key: row for row in card.rows}
+    assert (rows["torque_constant"].motor, rows["resistance"].motor) == pytest.approx((k, r))
+    assert rows["torque_constant"].origin.endswith("taken to 60 degC")
+    assert "taken to" not in card_markdown(actuator_card(p, "paper"))
+    assert "hold at 60 degC around" in card_markdown(card)
+
+
 def test_yaml_reads_back() -> None:
     yaml = pytest.importorskip("yaml", reason="PyYAML is not installed")
     p = dataclasses.replace(
@@ -145,6 +161,7 @@ def test_markdown_tells_both_sides_with_numbers_and_what_was_not_run() -> None:
     assert "catalogue (speed constant 55 rpm/V)" in text
     assert "v = R i + L di/dt + K w" in text
     assert "not run" in text
+    assert "with a network of `torque export` set armature, friction and damping" in text
     assert f"cqdd-design {__version__}" in text
     rows = [line for line in text.splitlines() if line.startswith("| backlash, whole")]
     assert len(rows) == 2

@@ -14,6 +14,8 @@ from hypothesis import given, settings
 from cqdd_design import __version__
 from cqdd_design.actuator.bench.steady import stall_torque
 from cqdd_design.actuator.parameters import ActuatorParameters
+from cqdd_design.exporting.simulators.mjcf import model_text
+from cqdd_design.exporting.simulators.mjcf_classes import MjcfActuator
 from cqdd_design.exporting.simulators.urdf import DRAKE, urdf_text
 
 
@@ -74,6 +76,15 @@ def test_reproducible_and_with_its_origin() -> None:
     assert f"cqdd-design {__version__}" in text
     assert "c0ffee" in text
     assert "armature" in text
+
+
+def test_the_mass_of_the_output_is_called_a_placeholder() -> None:
+    p = paper_actuator()
+    for text in (urdf_text(p, "paper"), model_text(MjcfActuator(p, "paper"))):
+        told = " ".join(text.split())
+        assert "0.001 kg of the output is a placeholder" in told
+        assert f"{p.mass:.4g} kg, is in the housing" in told
+        assert 'mass="0.001"' in told or '<mass value="0.001"/>' in told
 
 
 def test_mujoco_reads_it_and_positive_torque_turns_it_positive(

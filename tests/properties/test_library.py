@@ -252,6 +252,8 @@ def test_a_torque_that_is_none_is_refused_by_its_name(given, told):
         (lambda: cq.simulate("cqdd-10", friction=None), "^friction None is none of clip, lugre"),
         (lambda: cq.bench("cqdd-10", only=3), r'^only 3 is not a name; .*\("mass",\)'),
         (lambda: cq.bench("cqdd-10", only=["mass", 3]), "^only 3 is not a name"),
+        (lambda: cq.bench("cqdd-10", only=()), "^no measurement is selected; .* backlash"),
+        (lambda: cq.bench("cqdd-10", only=" , "), "^no measurement is selected"),
         (lambda: cq.bench("cqdd-10", beside="foo, bar"), "no motor 'foo'"),
         (lambda: cq.export("cqdd-10", 3), "^to 3 is not a name"),
         (lambda: cq.export("cqdd-10", "gcode", passes="4"), "^passes '4' is not a whole number"),

@@ -11,8 +11,15 @@ import pytest
 
 pytest.importorskip("pyarrow")
 
+from cqdd_design.design import load_design
+from cqdd_design.torque.evaluation.carried import (
+    DesignVersion,
+    actuator_of,
+    carried,
+    moved_on,
+    trained_on_design,
+)
 from cqdd_design.torque.evaluation.estimator import network_estimator
-from cqdd_design.torque.evaluation.lineup import actuator_of, carried
 from cqdd_design.torque.networks.artefact import read_artefact
 
 REPOSITORY = Path(__file__).resolve().parents[2]
@@ -59,14 +66,29 @@ def test_a_network_tells_which_actuator_it_keeps(script: Any) -> None:
     network = read_artefact(NETWORKS / "physics-gru-0.npz")
     own = actuator_of([network])
     assert own is not None
-    assert carried(network, own) == ""
-    assert "physics-gru keeps the actuator that it was trained on (cqdd-10)" in carried(network)
+    then = trained_on_design(network)
+    assert then is not None
+    assert moved_on({"a": network}, then, own) == moved_on({"a": network}, None) == ()
+    assert f"that of cqdd-10 (sha256 {then.sha256[:8]})" in carried(network)
     heavier = script.changed(own, inertia=1.3)
-    told = carried(network, heavier)
+    (told,) = moved_on({"a": network}, then, heavier)
+    assert told.startswith("a keeps the actuator that it was trained on")
     assert "not the one of this design" in told
     assert "motor.rotor_inertia" in told
     assert "friction" not in told.partition(":")[2]
-    assert carried(read_artefact(NETWORKS / "pva-gru-0.npz"), heavier) == ""
+    assert moved_on({"a": read_artefact(NETWORKS / "pva-gru-0.npz")}, then, heavier) == ()
+
+
+def test_every_committed_network_tells_that_the_design_has_moved_on() -> None:
+    """By the digest of the design, which those without an actuator's parameters hold as well."""
+    now = load_design(REPOSITORY / "designs" / "cqdd-10.toml")
+    version = DesignVersion(now.name, now.sha256)
+    networks = {path.stem: read_artefact(path) for path in NETWORKS.rglob("*.npz")}
+    (told,) = moved_on(networks, version)
+    assert all(name in told for name in networks)
+    assert "keep the actuator that they were trained on, that of cqdd-10 (sha256 a87b425d)" in told
+    assert f"not of cqdd-10 (sha256 {now.sha256[:8]}): the design has moved on." in told
+    assert all("a87b425d" in carried(one) for one in networks.values())
 
 
 @pytest.mark.deep

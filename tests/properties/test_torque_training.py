@@ -44,6 +44,17 @@ def quick(model="mlp-baseline", seed=0, **more):
     return train(DATA, SPLIT, order, **{k: v for k, v in more.items() if k not in ORDERED})
 
 
+def test_the_range_of_the_training_is_written_down():
+    facts = quick().facts
+    labels, speeds = (
+        np.concatenate([one.columns[name] for one in DATA.named(SPLIT.train)])
+        for name in ("torque", "velocity")
+    )
+    assert facts["label_range_Nm"] == [labels.min(), labels.max()]
+    assert facts["speed_range_rad_per_s"] == [speeds.min(), speeds.max()]
+    assert facts["signals_filter"] is None
+
+
 def test_sizes_are_those_of_the_paper():
     counts = {
         name: sum(t.numel() for t in Network(model, len(model.inputs), 0).tensors.values())

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Literal
@@ -46,6 +46,20 @@ def refuse_unmeasured(name: str, place: str = "") -> None:
             f"{place}'{name}' is not a measurement{did_you_mean(name, METRICS) or '.'} "
             f"The bench knows {', '.join(METRICS)}."
         )
+
+
+def refuse_unselected(names: Collection[str] | None) -> None:
+    """Raise a `UsageError` for a selection without names, or with one that is not measured.
+
+    None selects all; a list that came out empty would otherwise measure all as well.
+    """
+    if names is not None and not names:
+        raise UsageError(
+            "no measurement is selected; leave the selection out for all, or name some of "
+            f"{', '.join(METRICS)}."
+        )
+    for name in names or ():
+        refuse_unmeasured(name)
 
 
 @dataclass(frozen=True, eq=False)

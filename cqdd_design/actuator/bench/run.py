@@ -10,7 +10,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from cqdd_design.actuator.bench import bandwidth, gear, steady
-from cqdd_design.actuator.bench.metric import BenchResult, Metric, refuse_unmeasured
+from cqdd_design.actuator.bench.metric import BenchResult, Metric, refuse_unselected
 from cqdd_design.actuator.fitted_under import AT_VOLTAGE, FittedUnder
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.catalog import paper
@@ -44,7 +44,7 @@ def run_bench(
     *,
     rated_current: float | None = None,
     voltage: float = VOLTAGE,
-    only: Collection[str] = (),
+    only: Collection[str] | None = None,
     beside_paper: bool = False,
     drawn: Collection[ActuatorParameters] = (),
     gearbox: CarriedTorque | None = None,
@@ -77,10 +77,9 @@ def run_bench(
     Raises
     ------
     UsageError
-        For an unknown name, or a voltage or stiffness that is not above zero.
+        For an unknown name, no name at all, or a voltage or stiffness that is not above zero.
     """
-    for name in only:
-        refuse_unmeasured(name)
+    refuse_unselected(only)
     if not voltage > 0.0:
         raise UsageError(f"--voltage {voltage:g} V must be above 0; the paper's is {VOLTAGE:g} V.")
     if rig_stiffness is not None and not 0.0 < rig_stiffness < math.inf:
@@ -113,7 +112,7 @@ def run_bench(
     here = FittedUnder(voltage, parameters.thermal.ambient, rig_stiffness, parameters.seed)
     found, warnings = [], []
     for name, measure in measures.items():
-        if only and name not in only:
+        if only is not None and name not in only:
             continue
         if progress is not None:
             progress(measurement(name))

@@ -8,6 +8,7 @@ file may include several networks and use what it needs.
 from __future__ import annotations
 
 import re
+import textwrap
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,7 +18,9 @@ from cqdd_design.exporting.estimators import c_physics
 from cqdd_design.exporting.estimators.c_text import ACTIVATIONS, array, filled, template
 from cqdd_design.exporting.estimators.options import Export
 from cqdd_design.files import write_atomically
+from cqdd_design.torque.evaluation.carried import carried
 from cqdd_design.torque.networks.folded import folded_gru, folded_mlp
+from cqdd_design.torque.networks.meaning import meaning
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -106,8 +109,8 @@ def header_text(artefact: Artefact, name: str) -> str:
 
 
 def _comment(artefact: Artefact, actuator: ActuatorParameters | None) -> str:
-    valid = artefact.validity
-    low, high = valid.torque_range
+    valid, told = artefact.validity, meaning(artefact)
+    low, high = told.range
     arguments = [f" *   {name:15s} {meaning}" for _, name, meaning in _arguments(artefact)]
     held = "its state kept from call to call"
     if artefact.mode == "window":
@@ -118,9 +121,14 @@ def _comment(artefact: Artefact, actuator: ActuatorParameters | None) -> str:
         " * Call @name@_init once, and @name@_step every",
         f" * {valid.dt:g} s, no faster and no slower, with",
         *arguments,
-        " * It returns the actuator's torque on the joint in N m. Signs are those of the joint: a",
-        " * positive position error asks for a positive torque.",
+        " * It returns a torque in N m. Signs are those of the joint: a positive position error",
+        " * asks for a positive torque.",
         " *",
+        *_wrapped(told.joint_told),
+        " *",
+        *_wrapped(told.filter_told),
+        " *",
+        *([*_wrapped(_plain(kept)), " *"] if (kept := carried(artefact)) else []),
         f" * Mode: {artefact.mode}, {held}.",
         *(
             [" * Until there are so many, @name@_ready is 0 and the torque is 0."]
@@ -143,7 +151,7 @@ def _comment(artefact: Artefact, actuator: ActuatorParameters | None) -> str:
         f" *   sample time    {valid.dt:g} s",
         f" *   position gain  {valid.position_gain:g} N m/rad",
         f" *   velocity gain  {valid.velocity_gain:g} N m s/rad",
-        f" *   torque         {low:g} to {high:g} N m",
+        *_wrapped(f"{low:g} to {high:g} N m, {told.range_of}", "  torque         "),
         f" * {artefact.parameters} parameters; scaling is folded into the weights.",
         " *",
         f" * C99, {'link with -lm' if _needs_math(artefact) else 'no dependencies'}. Fast with: "
@@ -151,6 +159,12 @@ def _comment(artefact: Artefact, actuator: ActuatorParameters | None) -> str:
         " */",
     ]
     return "\n".join(lines)
+
+
+def _wrapped(text: str, head: str = "") -> list[str]:
+    """A sentence as lines of the comment, those after the first as deep as its head."""
+    deep = " " * len(head)
+    return textwrap.wrap(text, 96, initial_indent=f" * {head}", subsequent_indent=f" * {deep}")
 
 
 def _plain(text: str) -> str:
@@ -192,7 +206,7 @@ def _sizes(artefact: Artefact) -> str:
     }
     lines = [f"#define @NAME@_{name} {value}" for name, value in sizes.items()]
     valid = artefact.validity
-    low, high = valid.torque_range
+    low, high = meaning(artefact).range
     for name, value in {
         "DT": valid.dt,
         "POSITION_GAIN": valid.position_gain,

@@ -5,7 +5,8 @@ runs each of them from a zero state. ``NAME-isaaclab-lstm.pt`` for ``ActuatorNet
 the place of the LSTM, its state kept by the client. ``NAME-isaaclab-gru.pt``: the form of the
 proposed ``ActuatorNetGRU`` (IsaacLab pull request 6083, closed unmerged). Beside each a JSON file
 with the fields of the configuration. Both released classes clip the torque with the DC motor's
-envelope afterwards. (isaaclab 2.3.2, ``actuators/actuator_net.py``)
+envelope afterwards, whose limits are wanted: those written leave what the training's labels reach
+alone, at every speed of the training. (isaaclab 2.3.2, ``actuators/actuator_net.py``)
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ import numpy as np
 from cqdd_design.errors import UsageError
 from cqdd_design.exporting.estimators.options import (
     Export,
+    joint_settings,
     metadata,
     probe,
     require,
@@ -27,6 +29,7 @@ from cqdd_design.exporting.estimators.options import (
 )
 from cqdd_design.exporting.estimators.torchscript import Shape, client_history, torchscript
 from cqdd_design.files import WrittenFile, write_atomically
+from cqdd_design.torque.networks.meaning import meaning
 from cqdd_design.torque.networks.predict import predict
 
 if TYPE_CHECKING:
@@ -44,6 +47,15 @@ _FORMS = {
 """Ending of the file and class of the client, by shape."""
 OF_HISTORY = {"pos_scale": 1.0, "vel_scale": 1.0, "torque_scale": 1.0, "input_order": "pos_vel"}
 """Fields that every client with a history wants: scaling is inside, positions come first."""
+
+_JOINT = {
+    "armature": "armature",
+    "friction": "friction",
+    "dynamic_friction": "friction",
+    "viscous_friction": "damping",
+}
+"""Fields of the simulated joint, which are those of its asset where none is given. Its `damping` is
+a gain of the controller, which no network's class reads."""
 
 
 def export_isaaclab(artefact: Artefact, path: Path) -> Export:
@@ -82,6 +94,7 @@ def write_shape(
 
 def _settings(artefact: Artefact, shape: Shape, file: str) -> dict[str, Any]:
     configuration: dict[str, Any] = {"network_file": file}
+    configuration |= meaning(artefact).envelope | joint_settings(artefact, _JOINT)
     if shape == "history":
         configuration |= {**OF_HISTORY, "input_idx": list(range(client_history(artefact)))}
     return {

@@ -11,13 +11,22 @@ from typing import TYPE_CHECKING
 
 from cqdd_design.errors import UsageError
 from cqdd_design.exporting.estimators.isaaclab import OF_HISTORY, write_shape
-from cqdd_design.exporting.estimators.options import Export, metadata, require_inputs
+from cqdd_design.exporting.estimators.options import (
+    Export,
+    joint_settings,
+    metadata,
+    require_inputs,
+)
 from cqdd_design.exporting.estimators.torchscript import client_history
+from cqdd_design.torque.networks.meaning import meaning
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from cqdd_design.torque.networks.artefact import Artefact
+
+_JOINT = {"armature": "armature", "frictionloss": "friction", "viscous_damping": "damping"}
+"""Fields of the simulated joint, which are those of the robot's XML where none is given."""
 
 
 def export_mjlab(artefact: Artefact, path: Path) -> Export:
@@ -44,6 +53,8 @@ def export_mjlab(artefact: Artefact, path: Path) -> Export:
             "network_file": place.name,
             **OF_HISTORY,
             "history_length": client_history(artefact),
+            **meaning(artefact).envelope,
+            **joint_settings(artefact, _JOINT),
         },
     }
     return Export(write_shape(artefact, place, "history", settings))

@@ -11,6 +11,7 @@ from __future__ import annotations
 import importlib
 import json
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -19,6 +20,7 @@ import numpy as np
 from cqdd_design.errors import CqddError, DependencyError, ReadBackError, UsageError
 from cqdd_design.files import WrittenFile, parse_json, read_text_file, write_atomically
 from cqdd_design.torque.features.matrix import PHYSICAL
+from cqdd_design.torque.networks.meaning import meaning
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -83,7 +85,7 @@ def metadata(artefact: Artefact, mode: Mode) -> dict[str, Any]:
         "sample_dt_s": valid.dt,
         "position_gain_Nm_per_rad": valid.position_gain,
         "velocity_gain_Nms_per_rad": valid.velocity_gain,
-        "torque_range_Nm": list(valid.torque_range),
+        **meaning(artefact).to_dict(),
         "signs": SIGNS,
         "acceleration_taps_per_s": list(taps.taps) if taps else None,
         "acceleration_delay_s": taps.delay if taps else None,
@@ -91,6 +93,18 @@ def metadata(artefact: Artefact, mode: Mode) -> dict[str, Any]:
         "parameters": artefact.parameters,
         "facts": dict(artefact.facts),
     }
+
+
+def joint_settings(artefact: Artefact, names: Mapping[str, str]) -> dict[str, float]:
+    """A client's fields of the driven joint, by what they hold; empty where it is unknown.
+
+    Parameters
+    ----------
+    names : mapping of str to str
+        The client's fields, each with one of `Meaning.joint`.
+    """
+    known = meaning(artefact).joint or {}
+    return {name: known[of] for name, of in names.items() if of in known}
 
 
 def write_settings(path: Path, content: dict[str, Any]) -> WrittenFile:

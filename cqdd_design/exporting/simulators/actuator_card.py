@@ -17,13 +17,14 @@ from cqdd_design.actuator.joint_side import JointSide, joint_side
 from cqdd_design.actuator.motor import motor_constants
 from cqdd_design.exporting.simulators.card_clients import client_settings, clients
 from cqdd_design.exporting.simulators.card_rows import Quantity, quantities
-from cqdd_design.exporting.simulators.stated import provenance
+from cqdd_design.exporting.simulators.stated import effort_overload, overload_remark, provenance
 from cqdd_design.exporting.simulators.yaml_text import yaml_text
 from cqdd_design.files import WrittenFile, write_atomically
 
 if TYPE_CHECKING:
     from cqdd_design.actuator.parameters import ActuatorParameters
     from cqdd_design.exporting.job import ExportJob
+    from cqdd_design.machine.overload import Overload
 
 FORMAT = 1
 """Of the YAML's keys."""
@@ -43,6 +44,10 @@ class Card:
         Of kinematic error and stiffness: orders in a turn of the output, and coefficients.
     settings : mapping
         Client to configuration to setting to value.
+    ambient : float
+        deg C, at which K, resistance and what follows from them hold.
+    beyond : Overload or None
+        What the gearbox does not carry of the effort limit.
     """
 
     name: str
@@ -53,11 +58,18 @@ class Card:
     rows: tuple[Quantity, ...]
     harmonics: Mapping[str, object]
     settings: Mapping[str, Mapping[str, Mapping[str, object]]]
+    ambient: float
+    beyond: Overload | None = None
 
 
 def export_card(job: ExportJob) -> tuple[WrittenFile, ...]:
     """Write ``<name>-card.yaml`` and ``<name>-card.md``."""
-    card = actuator_card(job.actuator, job.design.file_name, design_sha256=job.design.sha256)
+    card = actuator_card(
+        job.actuator,
+        job.design.file_name,
+        design_sha256=job.design.sha256,
+        beyond=effort_overload(job),
+    )
     return (
         write_atomically(job.path("-card.yaml"), card_yaml(card), "card"),
         write_atomically(job.path("-card.md"), card_markdown(card), "card"),
@@ -65,7 +77,11 @@ def export_card(job: ExportJob) -> tuple[WrittenFile, ...]:
 
 
 def actuator_card(
-    parameters: ActuatorParameters, name: str, *, design_sha256: str = "not given"
+    parameters: ActuatorParameters,
+    name: str,
+    *,
+    design_sha256: str = "not given",
+    beyond: Overload | None = None,
 ) -> Card:
     """Return the card of an actuator."""
     side = joint_side(parameters)
@@ -74,10 +90,12 @@ def actuator_card(
         design_sha256=design_sha256,
         side=side,
         ratio=parameters.gear.ratio,
-        constants=motor_constants(parameters.motor.torque_constant),
+        constants=motor_constants(side.motor_constant),
         rows=quantities(parameters, side),
         harmonics=_harmonics(parameters),
         settings=client_settings(parameters, side),
+        ambient=parameters.thermal.ambient,
+        beyond=beyond,
     )
 
 
@@ -105,6 +123,7 @@ def card_yaml(card: Card) -> str:
             "crank": "against the joint" if card.side.crank_sense < 0 else "with the joint",
         },
         "conventions": {key: text for key, text in _conventions(card)},
+        **({"gearbox": card.beyond.to_dict()} if card.beyond else {}),
         "parameters": {
             row.key: {name: value for name, value in vars(row).items() if name != "key"}
             for row in card.rows
@@ -177,6 +196,12 @@ def _conventions(card: Card) -> tuple[tuple[str, str], ...]:
             "before comparing.",
         ),
         (
+            "temperature",
+            f"K, resistance and what follows from them hold at {card.ambient:g} degC around the "
+            "actuator (environment.ambient), motor cold; the continuous torque at the winding's "
+            "limit.",
+        ),
+        (
             "reflection",
             f"With n = {n}: torque and K times n; angle and speed over n; inertia, damping and "
             f"stiffness times n^2 = {side.reduction**2:g}. For instance {inertia.motor:.6g} kg m^2 "
@@ -191,11 +216,14 @@ def _conventions(card: Card) -> tuple[tuple[str, str], ...]:
             "motor and drive allow: friction under load keeps the difference. A client that takes "
             "Coulomb friction off as well takes its part twice.",
         ),
+        *((("gearbox", overload_remark(card.beyond)),) if card.beyond else ()),
         (
             "armature",
             "Settings named armature hold rotor and crank only, as the output side's "
             f"{side.output_inertia:.6g} kg m^2 belong into the driven link's inertia; where they "
-            f"are not in it set {side.reflected_inertia:.6g}.",
+            f"are not in it set {side.reflected_inertia:.6g}. A learned torque has all of it, and "
+            "friction and damping, in itself: with a network of `torque export` set armature, "
+            "friction and damping of the joint to 0.",
         ),
     )
 

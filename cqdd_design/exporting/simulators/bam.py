@@ -32,12 +32,18 @@ import json
 from typing import TYPE_CHECKING
 
 from cqdd_design.actuator.joint_side import joint_side
-from cqdd_design.exporting.simulators.stated import effort_limit, provenance
+from cqdd_design.exporting.simulators.stated import (
+    effort_limit,
+    effort_overload,
+    overload_remark,
+    provenance,
+)
 from cqdd_design.files import WrittenFile, write_atomically
 
 if TYPE_CHECKING:
     from cqdd_design.actuator.parameters import ActuatorParameters
     from cqdd_design.exporting.job import ExportJob
+    from cqdd_design.machine.overload import Overload
 
 UNITS = {
     "kt": "N m/A = V s/rad",
@@ -60,7 +66,12 @@ UNITS = {
 
 def export_bam(job: ExportJob) -> tuple[WrittenFile, ...]:
     """Write ``<name>-bam.json``."""
-    document = bam_document(job.actuator, job.design.file_name, design_sha256=job.design.sha256)
+    document = bam_document(
+        job.actuator,
+        job.design.file_name,
+        design_sha256=job.design.sha256,
+        beyond=effort_overload(job),
+    )
     text = json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
     return (write_atomically(job.path("-bam.json"), text, "bam"),)
 
@@ -86,14 +97,18 @@ def load_coefficients(forward: float, backward: float, extra: float) -> dict[str
 
 
 def bam_document(
-    parameters: ActuatorParameters, name: str, *, design_sha256: str = "not given"
+    parameters: ActuatorParameters,
+    name: str,
+    *,
+    design_sha256: str = "not given",
+    beyond: Overload | None = None,
 ) -> dict[str, object]:
     """Return the file's content; keys with an underscore are notes that BAM does not read."""
     side = joint_side(parameters)
     drive, friction = parameters.drive, parameters.friction
     return {
         "kt": side.torque_constant,
-        "R": parameters.motor.resistance,
+        "R": side.resistance,
         "armature": side.reflected_inertia,
         "q_offset": 0.0,
         "command_delay": drive.delay,
@@ -113,12 +128,15 @@ def bam_document(
             "peak_torque_Nm": side.peak_torque,
             "effort_limit_Nm": effort_limit(parameters),
             "no_load_speed_rad_per_s": side.no_load_speed,
+            **({"gearbox_carries_Nm": beyond.carried} if beyond else {}),
         },
         "_notes": [
             "All at the joint, positive command with positive motion; the gearbox has signed ratio "
             f"{parameters.gear.ratio:g}.",
             "BAM looks up 'actuator' in its own table: register a class there under this name that "
             "computes torque from current with the limits above, as its Erob does.",
+            *([overload_remark(beyond)] if beyond else []),
+            f"kt and R are those at {parameters.thermal.ambient:g} degC around the actuator.",
             "armature is the whole reflected inertia, that of the output side included.",
             "Not in this file, because BAM has no place for it: backlash, stiffness, ripple, "
             "cogging, inductance, heat; friction under load that grows faster above "

@@ -57,6 +57,8 @@ class Quantity:
 
 _POWER = {"n": 1, "1/n": -1, "n^2": 2}
 """How a number goes from motor to joint, and the power of n that does it."""
+_WARMED = ("torque_constant", "resistance")
+"""Rows whose values are stated at one temperature and given at that around the actuator."""
 _COLUMNS = 6
 """Before those of the clients."""
 
@@ -87,6 +89,8 @@ def quantities(parameters: ActuatorParameters, side: JointSide) -> tuple[Quantit
         known = values[key] if key in values else value_of(parameters, names[0])
         value = known if math.isfinite(known) else None
         origin = of if of.startswith("computed") else origin_of(parameters, *names)
+        if key in _WARMED and parameters.thermal.ambient != parameters.motor.reference_temperature:
+            origin += f", taken to {parameters.thermal.ambient:g} degC"
         motor = value if place == "motor" else None
         joint = value if place == "joint" else None
         shown = ""

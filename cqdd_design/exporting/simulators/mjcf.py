@@ -27,7 +27,7 @@ from cqdd_design.exporting.simulators.mjcf_classes import (
     remarks,
     time_step,
 )
-from cqdd_design.exporting.simulators.stated import DEAD_MASS
+from cqdd_design.exporting.simulators.stated import DEAD_MASS, effort_overload, mass_remark
 from cqdd_design.exporting.simulators.xml_text import comment, element, identifier, number, numbers
 from cqdd_design.files import WrittenFile, write_atomically
 
@@ -39,7 +39,12 @@ _UNTOUCHED = {"contype": "0", "conaffinity": "0"}
 
 def export_mjcf(job: ExportJob) -> tuple[WrittenFile, ...]:
     """Write ``<name>-test.xml``, which loads by itself, and ``<name>.xml``, to be included."""
-    model = MjcfActuator(job.actuator, job.design.file_name, design_sha256=job.design.sha256)
+    model = MjcfActuator(
+        job.actuator,
+        job.design.file_name,
+        design_sha256=job.design.sha256,
+        beyond=effort_overload(job),
+    )
     return (
         write_atomically(job.path("-test.xml"), model_text(model), "mjcf"),
         write_atomically(job.path(".xml"), fragment_text(model), "mjcf"),
@@ -102,7 +107,7 @@ def model_text(model: MjcfActuator) -> str:
             element("actuatorfrc", {"name": "motor-torque", "actuator": name}),
         )
     )
-    head = [f"{name}: test model of one actuator for MuJoCo 4.", ""]
+    head = [f"{name}: test model of one actuator for MuJoCo 4.", "", mass_remark(parameters), ""]
     return (
         f"{comment([*head, *remarks(model, alone=True)])}\n"
         + element("mujoco", {"model": name}, *sections)

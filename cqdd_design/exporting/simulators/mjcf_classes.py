@@ -21,11 +21,17 @@ from cqdd_design.actuator.joint_side import (
 )
 from cqdd_design.actuator.thermal import single_node
 from cqdd_design.catalog.motors import COPPER_COEFFICIENT
-from cqdd_design.exporting.simulators.stated import effort_limit, peak_limit, provenance
+from cqdd_design.exporting.simulators.stated import (
+    effort_limit,
+    overload_remark,
+    peak_limit,
+    provenance,
+)
 from cqdd_design.exporting.simulators.xml_text import element, identifier, number, numbers
 
 if TYPE_CHECKING:
     from cqdd_design.actuator.parameters import ActuatorParameters, FrictionParameters
+    from cqdd_design.machine.overload import Overload
 
 LEAST_RIPPLE = 0.01
 """Harmonics below this share of the largest are left out: each is an actuator to be stepped."""
@@ -49,12 +55,15 @@ class MjcfActuator:
         As given, made fit for an attribute.
     backlash : bool
         Whether a second hinge stands for it; without it the joint is rigid.
+    beyond : Overload or None
+        What the gearbox does not carry of the effort limit.
     """
 
     parameters: ActuatorParameters
     name: str
     design_sha256: str = "not given"
     backlash: bool = True
+    beyond: Overload | None = None
 
     def __post_init__(self) -> None:
         """Make the name fit for an attribute."""
@@ -165,8 +174,8 @@ def _motor_attributes(model: MjcfActuator, step: float) -> dict[str, object]:
     attributes: dict[str, object] = {
         "gear": model.side.reduction,
         "resistance": motor.resistance,
-        "motorconst": numbers(motor.torque_constant, motor.torque_constant),
-        "saturation": numbers(_own_peak(parameters), drive.current_limit, 0.0),
+        "motorconst": numbers(model.side.motor_constant, model.side.motor_constant),
+        "saturation": numbers(_own_peak(model), drive.current_limit, 0.0),
         "thermal": numbers(
             resistance,
             0.0,
@@ -198,16 +207,16 @@ def _motor_attributes(model: MjcfActuator, step: float) -> dict[str, object]:
     return attributes
 
 
-def _own_peak(parameters: ActuatorParameters) -> float:
+def _own_peak(model: MjcfActuator) -> float:
     """The motor's own peak torque where the drive gives more, N m; 0, no limit, where not."""
-    motor_binds = parameters.peak_current < parameters.drive.current_limit
-    return parameters.motor.peak_torque if motor_binds else 0.0
+    most = model.parameters.peak_current
+    return model.side.motor_constant * most if most < model.parameters.drive.current_limit else 0.0
 
 
 def _torque(model: MjcfActuator) -> dict[str, object]:
     """Commanded in torque, up to what leaves the bench's stall torque after MuJoCo's friction."""
     parameters = model.parameters
-    most = parameters.motor.torque_constant * parameters.peak_current
+    most = model.side.motor_constant * parameters.peak_current
     stalled = effort_limit(parameters) / model.side.reduction + motor_breakaway(parameters)
     most = min(most, stalled)
     return {
@@ -316,7 +325,11 @@ def remarks(model: MjcfActuator, *, alone: bool) -> list[str]:
         "actuator_length is the motor's angle in the drive's sense.",
         "",
         "Constants: K in N m/A = V s/rad of the equivalent DC machine, resistance and inductance "
-        f"line to line. At full voltage: stall torque {number(side.stall_torque)} N m without and "
+        f"line to line. K is that at the {number(parameters.thermal.ambient)} degC around the "
+        "actuator and stays when the motor warms; resistance is stated at "
+        f"{number(parameters.motor.reference_temperature)} degC, and MuJoCo warms it.",
+        "",
+        f"At full voltage: stall torque {number(side.stall_torque)} N m without and "
         f"{number(side.peak_torque)} N m with {peak_limit(parameters)}, both before friction, "
         f"no-load speed {number(side.no_load_speed)} rad/s; reflected inertia "
         f"{number(side.reflected_inertia)} kg m^2, all at the joint. On a locked output the "
@@ -324,6 +337,7 @@ def remarks(model: MjcfActuator, *, alone: bool) -> list[str]:
         "with the limit, which this file does not: the range of a commanded torque ends where the "
         f"output gives {number(effort_limit(parameters))} N m, what it gives stalled.",
         "",
+        *([overload_remark(model.beyond), ""] if model.beyond else []),
         _ripple_remark(model),
         "",
         "Not in this file, because MuJoCo has no place for it:",

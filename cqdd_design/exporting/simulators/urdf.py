@@ -15,6 +15,9 @@ from cqdd_design.actuator.joint_side import JointSide, joint_side
 from cqdd_design.exporting.simulators.stated import (
     DEAD_MASS,
     effort_limit,
+    effort_overload,
+    mass_remark,
+    overload_remark,
     peak_limit,
     provenance,
 )
@@ -24,6 +27,7 @@ from cqdd_design.files import WrittenFile, write_atomically
 if TYPE_CHECKING:
     from cqdd_design.actuator.parameters import ActuatorParameters
     from cqdd_design.exporting.job import ExportJob
+    from cqdd_design.machine.overload import Overload
 
 DRAKE = "http://drake.mit.edu"
 """Namespace of Drake's elements."""
@@ -31,14 +35,26 @@ DRAKE = "http://drake.mit.edu"
 
 def export_urdf(job: ExportJob) -> tuple[WrittenFile, ...]:
     """Write ``<name>.urdf``."""
-    text = urdf_text(job.actuator, job.design.file_name, design_sha256=job.design.sha256)
+    text = urdf_text(
+        job.actuator,
+        job.design.file_name,
+        design_sha256=job.design.sha256,
+        beyond=effort_overload(job),
+    )
     return (write_atomically(job.path(".urdf"), text, "urdf"),)
 
 
 def urdf_text(
-    parameters: ActuatorParameters, name: str, *, design_sha256: str = "not given"
+    parameters: ActuatorParameters,
+    name: str,
+    *,
+    design_sha256: str = "not given",
+    beyond: Overload | None = None,
 ) -> str:
-    """Return the URDF: links ``housing`` and ``output``, between them joint ``<name>``."""
+    """Return the URDF: links ``housing`` and ``output``, between them joint ``<name>``.
+
+    With `beyond`, what the gearbox does not carry of the effort limit, it says so.
+    """
     name = identifier(name)
     side = joint_side(parameters)
     spread = parameters.mass * _SLENDER
@@ -54,7 +70,7 @@ def urdf_text(
     )
     return (
         '<?xml version="1.0"?>\n'
-        + comment(_remarks(parameters, side, name, design_sha256))
+        + comment(_remarks(parameters, side, name, design_sha256, beyond))
         + "\n"
         + element(
             "robot",
@@ -112,7 +128,11 @@ def _transmission(parameters: ActuatorParameters, side: JointSide, name: str) ->
 
 
 def _remarks(
-    parameters: ActuatorParameters, side: JointSide, name: str, design_sha256: str
+    parameters: ActuatorParameters,
+    side: JointSide,
+    name: str,
+    design_sha256: str,
+    beyond: Overload | None,
 ) -> list[str]:
     friction = parameters.friction
     sense = "against" if side.crank_sense < 0 else "with"
@@ -131,12 +151,15 @@ def _remarks(
         "speed with friction. URDF cannot say so. A client that takes off dynamics' friction as "
         f"well takes its {number(side.coulomb)} N m twice.",
         "",
+        *([overload_remark(beyond), ""] if beyond else []),
         "dynamics: Coulomb and viscous friction of both sides at the joint. Not here, because URDF "
         f"has no place for it: breakaway of {number(side.breakaway)} N m, friction that grows with "
         f"load ({number(friction.load_forward)} of the torque when the motor drives, "
         f"{number(friction.load_backward)} when the output drives, {number(friction.load_growth)} "
         f"of itself more above {number(friction.load_knee)} N m), backlash of "
         f"{number(parameters.gear.backlash)} rad, stiffness, ripple, heat.",
+        "",
+        mass_remark(parameters),
         "",
         "Inertia: the output link has that of the output side, "
         f"{number(side.output_inertia)} kg m^2. Rotor and crank, "

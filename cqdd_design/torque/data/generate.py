@@ -16,6 +16,7 @@ from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.errors import DesignError, UsageError
 from cqdd_design.machine import Machine
+from cqdd_design.machine.overload import overload
 from cqdd_design.torque.data import pendulum
 from cqdd_design.torque.data.episodes import DataSet, FloatArray
 from cqdd_design.torque.data.sensing import SensorChain
@@ -177,6 +178,14 @@ def generate(
         )
     currents = np.concatenate([one.columns["current"] for one in episodes])
     warnings += filter(None, [beyond_peak(own.motor, currents)])
+    labels = np.concatenate([one.columns["torque"] for one in episodes])
+    beyond = overload(machine, float(np.max(np.abs(labels))))
+    if beyond is not None:
+        warnings.append(
+            f"the torque on the load reaches {beyond.torque:.3g} N*m in these data, which the "
+            f"simulation lets the gearbox carry; {beyond.told}. A network learns such torques "
+            "as any other."
+        )
     drive, limit = own.drive, own.torque_limit
     facts: dict[str, Any] = {
         "source": "simulated",
@@ -213,6 +222,7 @@ def generate(
         "physics_step_s": found["physics_step_s"],
         "friction": "clip",
         "sensors": sensors.to_dict(drive.control_rate, drive.encoder_bits, own.gear.ratio),
+        "beyond_gearbox": beyond and beyond.to_dict(),
         "infeasible": infeasible,
         "saturated_share": {
             one.name: round(float(np.mean(one.flag("saturated"))), 6) for one in episodes

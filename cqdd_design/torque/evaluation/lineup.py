@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -13,9 +12,15 @@ from cqdd_design.errors import UsageError, did_you_mean
 from cqdd_design.torque.data.episodes import DataSet
 from cqdd_design.torque.data.splits import PROTOCOLS, split
 from cqdd_design.torque.evaluation.baselines import current_estimate, fit_friction, pd_law
+from cqdd_design.torque.evaluation.carried import (
+    DesignVersion,
+    actuator_of,
+    moved_on,
+    version_in,
+)
 from cqdd_design.torque.evaluation.estimator import Estimator, network_estimator
 from cqdd_design.torque.features.acceleration import savitzky_golay
-from cqdd_design.torque.features.physics import actuator_from_dict, physical_estimate, with_gains_of
+from cqdd_design.torque.features.physics import physical_estimate, with_gains_of
 from cqdd_design.torque.networks.artefact import Artefact, read_artefact
 
 
@@ -83,43 +88,6 @@ def of_other_data(artefact: Artefact, data_sha256: str) -> bool:
     return bool(artefact.facts.get("data_sha256", data_sha256) != data_sha256)
 
 
-def actuator_of(artefacts: Sequence[Artefact]) -> ActuatorParameters | None:
-    """The actuator whose parameters a network's file holds, None where none does."""
-    for artefact in artefacts:
-        content = artefact.facts.get("actuator")
-        if isinstance(content, Mapping):
-            return actuator_from_dict(content)
-    return None
-
-
-def carried(artefact: Artefact, now: ActuatorParameters | None = None) -> str:
-    """A sentence on the actuator that a network keeps; empty where its file holds none.
-
-    Parameters
-    ----------
-    now : ActuatorParameters, optional
-        What the design makes today; the sentence then tells in what it differs, and is empty where
-        it does not.
-    """
-    kept = actuator_of([artefact])
-    if kept is None:
-        return ""
-    head = f"{artefact.name} keeps the actuator that it was trained on"
-    if now is None:
-        return f"{head} ({kept.name}); another one, or a design that has moved on, is not in it."
-    differing = [
-        f"{part}.{name}"
-        for part in ("motor", "friction", "gear")
-        for name, value in vars(getattr(kept, part)).items()
-        if isinstance(value, float)
-        and not math.isclose(value, getattr(getattr(now, part), name), rel_tol=0.01)
-        and not (math.isnan(value) and math.isnan(getattr(getattr(now, part), name)))
-    ]
-    if not differing:
-        return ""
-    return f"{head}, not the one of this design: {', '.join(differing)} differ."
-
-
 def split_of(artefacts: Sequence[Artefact], seed: int | None) -> tuple[str, int]:
     """Protocol and seed of the split that networks were trained with; trajectory and 0 at last.
 
@@ -147,11 +115,13 @@ def line_up(
     *,
     split_seed: int | None = None,
     actuator: ActuatorParameters | None = None,
+    design: DesignVersion | None = None,
 ) -> Lineup:
     """Networks and baselines, and the test sets of some of `splits.PROTOCOLS`.
 
     Protocol and seed of the split are by default those of the networks, the actuator of the
-    physical baselines the one in a network's file; its gains become those of the data.
+    physical baselines the one in a network's file; its gains become those of the data. Where they
+    were trained on another version of the design, by default that of the data, a warning says so.
 
     Raises
     ------
@@ -167,10 +137,7 @@ def line_up(
             f"{', '.join(PROTOCOLS)}."
         )
     splits = {name: split(data, name, seed) for name in chosen}
-    warnings: list[str] = []
-    if actuator is not None:
-        told = (carried(one, actuator) for one in networks.values())
-        warnings += [text for text in dict.fromkeys(told) if text]
+    warnings = [*moved_on(networks, design or version_in(data.facts), actuator)]
     known = actuator or actuator_of(list(networks.values()))
     if known is not None:
         known = with_gains_of(known, data)

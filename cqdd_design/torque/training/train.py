@@ -18,6 +18,7 @@ from cqdd_design.torque.features.acceleration import differentiator_error, savit
 from cqdd_design.torque.features.matrix import phase_inputs, strongest_orders
 from cqdd_design.torque.features.physics import actuator_to_dict, with_gains_of
 from cqdd_design.torque.networks.artefact import Artefact, Validity
+from cqdd_design.torque.networks.meaning import label_facts
 from cqdd_design.torque.networks.modules import find_model, network_of, require_torch
 from cqdd_design.torque.training.checkpoint import read_checkpoint, require_same, write_checkpoint
 from cqdd_design.torque.training.epochs import CHUNK, Task, Trainer
@@ -183,6 +184,7 @@ def train(
         "seed": order.seed,
         "data_sha256": data.sha256,
         "data": {k: v for k, v in data.facts.items() if isinstance(v, str | int | float)},
+        **label_facts(data, data.named(split.train)),
         "split": split.to_dict(),
         "recipe": asdict(recipe),
         "epochs": state.epoch,
