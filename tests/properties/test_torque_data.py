@@ -387,7 +387,9 @@ def test_the_same_seed_gives_the_same_data_and_the_ripple_is_never_adjusted(smal
         resolve(DESIGN), SMALL, specimen=Specimen(factors={"tolerance_scale": 7.0})
     )
     assert data.sha256 == small[0].sha256
-    assert not small[1]
+    # Swings of the paper's pendulum are more than its pins' holes carry, and nothing else is said.
+    (beyond,) = small[1]
+    assert "the gearbox does not carry it" in beyond
     assert any("tolerance_scale" in sentence for sentence in warnings)
     few = dataclasses.replace(SMALL, episodes=1)
     stiff, _ = generate(resolve(DESIGN), few, specimen=Specimen(factors={"motor_coulomb": 0.3}))
