@@ -149,8 +149,8 @@ def test_an_error_as_large_as_a_hole_is_refused_by_name(machine):
 def test_threads_in_plastic_become_holes_of_inserts_that_leave_a_wall(every):
     by_name = {one.drawn.name: one for one in every}
     plate = by_name["carrier plate"]
-    # Of the pins or columns and of the output, drilled deeper than the screws reach.
-    assert sum(threads.count for threads in plate.threads) == 14
+    # Of the output, drilled deeper than the screws reach: pins are dowels.
+    assert sum(threads.count for threads in plate.threads) == 6
     assert {threads.insert.name for threads in plate.threads} == {"heat-set insert M4 x 8.1"}
     bored, _ = with_inserts(plate.drawn, plate.material.least_wall)
     sizes = [
@@ -246,7 +246,7 @@ def test_the_readme_says_what_was_done_and_what_is_left(design, machine, every):
     assert text.isascii()
     assert "Scaled by 1.00301 for a shrinkage of 0.3 %, holes drawn +0 um" in text
     assert "nothing measured yet" in text
-    assert "8 x M4, 8.5 mm deep: heat-set insert M4 x 8.1 in holes of 5.6 mm" in text
+    assert "6 x M4, 10.1 mm deep: heat-set insert M4 x 8.1 in holes of 5.6 mm" in text
     assert "BELOW 0.84 mm" in text
     assert "Seats come out at their nominal size with no stock on them" in text
     assert "the bearing nut's, are cut on a lathe and are not in these files" in text

@@ -11,7 +11,7 @@ import functools
 import re
 from collections.abc import Iterable
 
-from cqdd_design.catalog.adhesives import RING_COMPOUND, ROTOR_COMPOUND
+from cqdd_design.catalog.adhesives import EPOXY, RING_COMPOUND, ROTOR_COMPOUND
 from cqdd_design.catalog.bearings import bearings
 from cqdd_design.catalog.dowels import dowels
 from cqdd_design.catalog.encoders import encoder_magnets, encoder_sensors
@@ -71,6 +71,7 @@ def catalogue_designations() -> frozenset[str]:
             *(one.name for one in inserts()),
             ROTOR_COMPOUND.name,
             RING_COMPOUND,
+            EPOXY,
         )
     )
 
