@@ -18,6 +18,7 @@ from cqdd_design.sizing import nearest
 from cqdd_design.sizing.able import PEAK
 from cqdd_design.sizing.infeasible import SizingInfeasibleError
 from cqdd_design.sizing.motor_reach import MotorShortError, reach, refuse_weak_motor
+from cqdd_design.sizing.ratios import other_ratio
 from cqdd_design.sizing.verified import size_to_verdict
 
 DESIGN = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
@@ -273,3 +274,19 @@ def test_a_duty_beyond_the_motors_reach_is_refused_before_a_search(rows, said):
         assert words in refusal.value.message
     most = max((abs(t) for t, n in rows if t * n >= 0.0), default=0.0)
     assert refusal.value.needed == (most if most > 87.68 else 0.0)
+
+
+def test_the_ratio_that_a_duty_needs_is_looked_for_from_where_it_is_driven():
+    """By its own greatest torque: the peak torque is but a guess where a duty is stated."""
+    hunt = SimpleNamespace(requirements=_duty([(120.0, 0.0)]), say=lambda _: None)
+    with pytest.raises(MotorShortError) as refusal:
+        refuse_weak_motor(hunt.requirements, MOTOR, None)
+    tried = []
+
+    def search(ratio):
+        tried.append(ratio)
+        return ratio >= 18, ("MOTOR-PEAK",)
+
+    found = other_ratio(hunt, refusal.value, search)
+    assert (found.ratio, found.tried) == (18, 20)
+    assert tried == [20, 19, 18, 17]
