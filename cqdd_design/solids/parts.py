@@ -6,11 +6,11 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
-from cqdd_design.catalog.bearings import BEARING_MATERIAL, Bearing, shaft_material
+from cqdd_design.catalog.bearings import shaft_material
 from cqdd_design.catalog.printing import made_how
 from cqdd_design.design import Design
 from cqdd_design.geometry.columns import COLUMN_MATERIAL
@@ -18,7 +18,7 @@ from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.disc import disc_contour, disc_moments
 from cqdd_design.geometry.output_pins import RACEWAY, pin_zone
 from cqdd_design.geometry.ring import ring_contour, ring_moments, ring_pins
-from cqdd_design.geometry.runners import Runner, pin_runner, ring_runner
+from cqdd_design.geometry.runners import pin_runner, ring_runner
 from cqdd_design.solids import carrier as carrier_shapes
 from cqdd_design.solids import housing as housing_shapes
 from cqdd_design.solids import rotating
@@ -45,12 +45,11 @@ from cqdd_design.solids.features.rotating import (
     pin_features,
     ring_pin_features,
     shaft_features,
-    sleeve_features,
 )
 from cqdd_design.solids.flanged_can import with_flange
 from cqdd_design.solids.inrunner_parts import inrunner_parts
 from cqdd_design.solids.layers import Stack, prism
-from cqdd_design.solids.layout import Layout, PackLayout, ShimLayout
+from cqdd_design.solids.layout import Layout, ShimLayout
 from cqdd_design.solids.motor_parts import dowel_part, motor_parts
 from cqdd_design.solids.motor_shapes import (
     with_dowel_grooves,
@@ -60,6 +59,7 @@ from cqdd_design.solids.motor_shapes import (
 from cqdd_design.solids.mounting import SCREW_MATERIAL
 from cqdd_design.solids.part import Colour, Instance, Part, around, on_axis, placed
 from cqdd_design.solids.poses import CARRIER, HOUSING, SHAFT, Body, transform
+from cqdd_design.solids.runner_parts import BEARING_COLOUR, runner_parts
 from cqdd_design.solids.selection import ChosenBearing
 from cqdd_design.solids.shims import SHIM_MATERIAL
 
@@ -71,7 +71,6 @@ _COVER: Colour = (0.45, 0.49, 0.55)
 _RING: Colour = (0.20, 0.45, 0.70)
 _DISCS: tuple[Colour, ...] = ((0.93, 0.69, 0.13), (0.85, 0.45, 0.16), (0.62, 0.72, 0.25))
 _SHAFT: Colour = (0.72, 0.20, 0.22)
-_BEARING: Colour = (0.86, 0.87, 0.88)
 _SCREW: Colour = (0.16, 0.17, 0.19)
 
 
@@ -168,13 +167,14 @@ def _ring_parts(design: Design, layout: Layout) -> list[Part]:
         stated = ring_pin_features(diameter, low, high, zone)
         parts.append(
             Part(
-                "ring pin", shape, material, _BEARING, "make", designation, pieces, stated=stated
+                "ring pin", shape, material, BEARING_COLOUR, "make", designation, pieces,
+                stated=stated,
             )
         )  # fmt: skip
     rollers = ring_runner(design)
     if rollers is not None:
         centres = [pin.centre for pin in pins]
-        parts += _runner_parts("ring", "roller", rollers, material, layout.pack, HOUSING, centres)
+        parts += runner_parts("ring", "roller", rollers, material, layout.pack, HOUSING, centres)
     return [*parts, *dowel_part(layout)]
 
 
@@ -220,7 +220,7 @@ def _bearing_part(
         name,
         rotating.bearing_envelope(chosen),
         chosen.material,
-        _BEARING,
+        BEARING_COLOUR,
         "make" if chosen.source == "bush" else "buy",
         row.designation,
         tuple(instances),
@@ -266,7 +266,7 @@ def _carrier_parts(design: Design, layout: Layout) -> list[Part]:
     runner = pin_runner(design)
     if runner is not None:
         steel, centres = design.reducer.output_pins.material, _pin_positions(layout)
-        parts += _runner_parts("pin", "sleeve", runner, steel, layout.pack, CARRIER, centres)
+        parts += runner_parts("pin", "sleeve", runner, steel, layout.pack, CARRIER, centres)
     seat = on_axis("output bearing", HOUSING, carrier.bearing_bottom)
     return [
         *parts,
@@ -280,7 +280,7 @@ def _shims(name: str, shim: ShimLayout, body: Body, top: float) -> Part:
     """A pack of shims under the face at a height, m; the play lies between it and its bearing."""
     shape = rotating.sleeve(2.0 * shim.inner, 2.0 * shim.outer, shim.pack)
     pieces = on_axis(name, body, top - shim.pack)
-    return Part(name, shape, SHIM_MATERIAL, _BEARING, "buy", shim.designation, pieces)
+    return Part(name, shape, SHIM_MATERIAL, BEARING_COLOUR, "buy", shim.designation, pieces)
 
 
 def _column_parts(layout: Layout) -> list[Part]:
@@ -296,7 +296,7 @@ def _column_parts(layout: Layout) -> list[Part]:
             "carrier column",
             carrier_shapes.column_shape(columns, bottom, top),
             COLUMN_MATERIAL,
-            _BEARING,
+            BEARING_COLOUR,
             "make",
             f"tube {size} mm, faces ground as one set to one length",
             around("carrier column", CARRIER, places),
@@ -343,74 +343,6 @@ def _pin_part(design: Design, layout: Layout) -> Part:
         else pin_features(
             pin.nominal_diameter, carrier.shoulder_bottom, carrier.shoulder_top, zone
         ),
-    )
-
-
-def _runner_parts(
-    where: str,
-    name: str,
-    runner: Runner,
-    material: str,
-    pack: PackLayout,
-    body: Body,
-    centres: Iterable[FloatArray],
-) -> list[Part]:
-    """One sleeve or roller a pin and disc, and the needle cage in the middle of it.
-
-    Drawn cups stand side by side without a sleeve.
-
-    Parameters
-    ----------
-    where, name : str
-        Of which pins, and what turns on them; the parts are called so.
-    body : Body
-        What the pins move with.
-    centres : iterable of array (2,)
-        Of the pins, m.
-    """
-    places = [(x, y) for x, y in centres]
-
-    def at_every_disc(called: str, length: float) -> tuple[Instance, ...]:
-        above = 0.5 * (pack.disc_thickness - runner.rows * length)
-        standing = [
-            transform(x=x, y=y, z=pack.disc_bottom(disc) + above + row * length)
-            for disc in range(pack.disc_count)
-            for row in range(runner.rows)
-            for x, y in places
-        ]
-        return placed(called, body, *standing)
-
-    cage = runner.cage
-    if cage is not None and runner.is_drawn_cup:
-        called = f"{where} needle bearing"
-        return [_needle_part(called, cage, at_every_disc(called, cage.width))]
-    outer, inner, length = runner.diameter, runner.bore, runner.length
-    turning = Part(
-        f"{where} {name}",
-        rotating.sleeve(inner, outer, length),
-        material,
-        _BEARING,
-        "make",
-        f"ground {name} {inner * 1e3:g} x {outer * 1e3:g} x {length * 1e3:g} mm",
-        at_every_disc(f"{where} {name}", length),
-        stated=sleeve_features(inner, outer, length),
-    )
-    if cage is None:
-        return [turning]
-    called = f"{where} needle cage"
-    return [turning, _needle_part(called, cage, at_every_disc(called, cage.width))]
-
-
-def _needle_part(called: str, row: Bearing, standing: tuple[Instance, ...]) -> Part:
-    return Part(
-        called,
-        rotating.sleeve(row.bore_diameter, row.outer_diameter, row.width),
-        BEARING_MATERIAL,
-        _BEARING,
-        "buy",
-        row.designation,
-        standing,
-        catalogue_mass=row.mass,
     )
 
 

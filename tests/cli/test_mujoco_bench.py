@@ -212,13 +212,8 @@ def test_ripple_of_perfect_parts_is_that_of_the_stiffness(
     assert even < 1e-6 * soft
 
 
-@pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("backlash", [True, False])
-def test_no_load_speed(
-    actuators: dict[str, ActuatorParameters], validated: Validated, kind: str, backlash: bool
-) -> None:
-    """With Coulomb, Stribeck and viscous friction of both sides, and the ripple as written."""
-    p = actuators[kind]
+def idle_speeds(p: ActuatorParameters, *, backlash: bool) -> tuple[float, float]:
+    """Speed at full voltage without load in MuJoCo and on the bench, rad/s."""
     volts = p.drive.supply_voltage
     model, data = load(model_text(MjcfActuator(p, "a", backlash=backlash)))
     data.ctrl[0] = volts
@@ -228,6 +223,17 @@ def test_no_load_speed(
         speeds.append(float(data.sensordata[1]))
     found = float(np.mean(speeds[len(speeds) // 2 :]))
     measured = steady.no_load_speed(p, volts).value * math.pi / 30.0
+    return found, measured
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("backlash", [True, False])
+def test_no_load_speed(
+    actuators: dict[str, ActuatorParameters], validated: Validated, kind: str, backlash: bool
+) -> None:
+    """With Coulomb, Stribeck and viscous friction of both sides, and the ripple as written."""
+    p = actuators[kind]
+    found, measured = idle_speeds(p, backlash=backlash)
     what = f"MuJoCo: no-load speed, {kind}, {'with' if backlash else 'without'} backlash"
     validated(what, "our bench", abs(found / measured - 1.0), CLOSE)
 
@@ -240,15 +246,7 @@ def test_no_load_speed_in_the_cold_and_in_the_heat(
     p = actuators["perfect"]
     thermal = dataclasses.replace(p.thermal, ambient=ambient)
     p = dataclasses.replace(p, thermal=thermal)
-    volts = p.drive.supply_voltage
-    model, data = load(model_text(MjcfActuator(p, "a", backlash=False)))
-    data.ctrl[0] = volts
-    speeds = []
-    while data.time < 1.0:
-        mujoco.mj_step(model, data)
-        speeds.append(float(data.sensordata[1]))
-    found = float(np.mean(speeds[len(speeds) // 2 :]))
-    measured = steady.no_load_speed(p, volts).value * math.pi / 30.0
+    found, measured = idle_speeds(p, backlash=False)
     assert found == pytest.approx(measured, rel=1e-4)
     assert joint_side(p).no_load_speed == pytest.approx(measured, rel=1e-3)
 
