@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from cqdd_design.design.fields import FrozenModel, Share, default
+from cqdd_design.design.fields import FrozenModel, MaterialName, Share, default
 from cqdd_design.units import SMALL_LENGTH, QuantityIn
 
 _Error = Annotated[
@@ -15,8 +15,8 @@ _Error = Annotated[
 ]
 
 
-class Printing(FrozenModel):
-    """A printer and its material as a test coupon shows them.
+class PrintedErrors(FrozenModel):
+    """A printer and a plastic as a test coupon shows them.
 
     `hole_error` and `outside_error` are diameters as measured less what the shrinkage alone leaves
     of those of the file, which files of printed parts are then corrected by; `shrinkage` is the
@@ -26,3 +26,19 @@ class Printing(FrozenModel):
     hole_error: _Error = default("0 um")
     outside_error: _Error = default("0 um")
     shrinkage: Annotated[float, Share(0.0, 0.05, "a share of every length")] | None = None
+
+
+class OtherPlastic(PrintedErrors):
+    """The same of another plastic of the design."""
+
+    material: MaterialName
+
+
+class Printing(PrintedErrors):
+    """What a coupon of `material` showed, and those of `others`.
+
+    Without a `material` it is the plastic that most parts are of.
+    """
+
+    material: MaterialName | None = None
+    others: tuple[OtherPlastic, ...] = ()

@@ -21,6 +21,7 @@ from cqdd_design.gearbox.pack_loads import PackLoads
 from cqdd_design.machine.machine import Machine
 from cqdd_design.machine.shaft import disc_heights
 from cqdd_design.solids.features import zones
+from cqdd_design.solids.registers import LEAD_IN
 
 
 @dataclass(frozen=True)
@@ -30,7 +31,7 @@ class LooseCam:
     Attributes
     ----------
     diameter, length : float
-        Of the joint, m.
+        Of the joint, its length between the chamfers of the bore, m.
     place : int
         Of its disc in the loads of a pack.
     material : Material
@@ -93,7 +94,7 @@ def loose_cam(machine: Machine) -> LooseCam | None:
     hole, core = fit_limits(zones.CAM_BORE, size), fit_limits(zones.PRESSED_CAM, size)
     return LooseCam(
         diameter=size,
-        length=top - bottom,
+        length=top - bottom - 2.0 * LEAD_IN,
         place=int(np.argmax(middles)),
         material=find_material(shaft_material(pack.cam.bearing)),
         least_interference=core.lower - hole.upper,

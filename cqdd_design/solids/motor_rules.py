@@ -24,8 +24,8 @@ from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.geometry.scale import MOST_TUBE_WALL
 from cqdd_design.solids.encoder_rules import lay_out_encoder
-from cqdd_design.solids.motor_layout import MotorLayout
-from cqdd_design.solids.registers import spigot_depth
+from cqdd_design.solids.motor_layout import MotorEnd, MotorLayout
+from cqdd_design.solids.registers import LEAD_IN, spigot_depth
 from cqdd_design.solids.rotor_pull import (
     NO_HOLES,
     WebHoles,
@@ -187,8 +187,13 @@ def hub_length(torque: float, diameter: float) -> float:
     """Length of a bonded hub, m: what holds the torque hot, up to `MOST_HUB` diameters."""
     compound = ROTOR_COMPOUND
     lasting = compound.strength * compound.metal_share * compound.share_at(_HOT) / SAFETY
-    needed = length_needed(torque, diameter, lasting)
-    return min(math.ceil(needed * 2e3) / 2e3, MOST_HUB * diameter)
+    needed = min(length_needed(torque, diameter, lasting), MOST_HUB * diameter) + 2.0 * LEAD_IN
+    return math.ceil(round(needed * 2e3, 9)) / 2e3
+
+
+def bonded_length(motor: MotorEnd) -> float:
+    """Of a hub between the chamfers of its bore, m."""
+    return motor.hub_top - motor.hub_bottom - 2.0 * LEAD_IN
 
 
 def _most_holes(hub: float, rim: float, unit: float) -> WebHoles:

@@ -19,7 +19,15 @@ from cqdd_design.geometry.contours import FloatArray, Moments
 from cqdd_design.results import MassProperties
 from cqdd_design.solids.features.edges import edges
 from cqdd_design.solids.features.holes import FittedHole
-from cqdd_design.solids.features.kinds import Feature, Seat, Shoulder, TrueFace
+from cqdd_design.solids.features.kinds import (
+    ON_AXIS,
+    Chamfer,
+    Feature,
+    Groove,
+    Seat,
+    Shoulder,
+    TrueFace,
+)
 from cqdd_design.solids.features.removal import cuts
 from cqdd_design.solids.features.revolved import Revolved
 from cqdd_design.solids.layers import Stack, prism_properties
@@ -83,6 +91,8 @@ class Part:
         closely fit it.
     stated : tuple of Feature
         What its maker is told besides its body; the holes of `shape` are theirs.
+    edged : bool
+        Whether its chamfers stand among those, and none is looked for on its layers.
     """
 
     name: str
@@ -97,6 +107,7 @@ class Part:
     exact_section: Moments | None = None
     fitted_section: Moments | None = None
     stated: tuple[Feature, ...] = ()
+    edged: bool = False
 
     @property
     def count(self) -> int:
@@ -107,9 +118,18 @@ class Part:
     def features(self) -> tuple[Feature, ...]:
         """All that it is made of: what is stated, and chamfers on the edges that turning leaves."""
         turned = self.source == "make" and self.exact_section is None
-        if not turned:
+        if self.edged or not turned:
             return self.stated
         return *self.stated, *edges(self.shape, [f for f in self.stated if isinstance(f, Seat)])
+
+    @property
+    def turned(self) -> tuple[Chamfer | Groove, ...]:
+        """Chamfers and grooves about its own axis."""
+        return tuple(
+            one
+            for one in self.features
+            if isinstance(one, Groove) or (isinstance(one, Chamfer) and one.centres == (ON_AXIS,))
+        )
 
     @property
     def fits(self) -> tuple[Seat | FittedHole, ...]:

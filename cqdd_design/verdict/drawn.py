@@ -17,7 +17,7 @@ from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.gearbox.heat.expansion import AS_DRAWN
 from cqdd_design.gearbox.tolerance.ensemble import make_ensemble
-from cqdd_design.gearbox.tolerance.evaluate import LOADS, PER_TOOTH, RANKED
+from cqdd_design.gearbox.tolerance.evaluate import FREEDOM, LOADS, OUTPUTS, PER_TOOTH, RANKED
 from cqdd_design.gearbox.tolerance.remembered import work_remembered
 from cqdd_design.gearbox.tolerance.run import ToleranceResult, run_ensemble
 from cqdd_design.machine import Machine
@@ -115,7 +115,9 @@ def _warm(
         return None
     if parts == AS_DRAWN:
         return None
-    tight = make_ensemble(machine.design, temperatures=parts, rigid=rigid)
+    # What is looked for there: whether they turn, and are as stiff as asked.
+    asked = FREEDOM if machine.design.requirements.stiffness is None else OUTPUTS
+    tight = make_ensemble(machine.design, temperatures=parts, outputs=asked, rigid=rigid)
     return run_ensemble(tight, samples, mapper=work_remembered, sensitivity=False)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 from cqdd_design.actuator import operating
 from cqdd_design.actuator.build import actuator_parameters
@@ -28,6 +29,7 @@ from cqdd_design.verdict.motor import lasting_speed_of
 from cqdd_design.verdict.remembered import remembered
 
 Progress = Callable[[str], None]
+_Then = TypeVar("_Then")
 _HeatTold = tuple[MachineTemperatures | None, tuple[Check, ...], tuple[str, ...]]
 """Temperatures with their checks, and why there are none."""
 
@@ -75,15 +77,18 @@ class Evidence:
 def gather(
     machine: Machine,
     specimen: Specimen,
+    then: Callable[[Evidence], _Then],
     *,
     samples: int,
     sensitivity: bool = False,
     progress: Progress = lambda _: None,
-) -> Evidence:
+) -> tuple[Evidence, _Then]:
     """Ask every model about a machine.
 
     Parameters
     ----------
+    then : callable
+        What is made of all evidence but drawn gearboxes, while these are drawn.
     samples : int
         Toleranced gearboxes; 0 draws none.
     sensitivity : bool
@@ -107,32 +112,36 @@ def gather(
         heat = beside.submit(_heat, machine)
         motor = beside.submit(_actuator, machine, specimen)
         held = beside.submit(lambda: _lasting(machine, heat.result(), motor.result()[0]))
+
+        def told() -> Evidence:
+            stress, stress_checks, unstressed = strained.result()
+            warm, heat_checks, cold = heat.result()
+            actuator, no_actuator = motor.result()
+            return Evidence(
+                machine=machine,
+                stress=stress,
+                stress_checks=stress_checks,
+                stress_missing="" if stress else " ".join(unstressed),
+                temperatures=warm,
+                heat_checks=heat_checks,
+                heat_missing="" if warm else " ".join(cold),
+                actuator=actuator,
+                actuator_missing=no_actuator,
+                drawn=None,
+                drawn_missing="",
+                lasting_torque=held.result(),
+            )
+
+        made = beside.submit(lambda: then(told()))
         progress("drawing toleranced gearboxes, and judging heat and motor")
         try:
             drawn, undrawn = _drawn(machine, samples, sensitivity, lambda: heat.result()[0])
         except BaseException:
             # Ctrl-C: what has not begun is not waited for.
-            for one in (heat, motor, held):
+            for one in (heat, motor, held, made):
                 one.cancel()
             raise
-        stress, stress_checks, unstressed = strained.result()
-        warm, heat_checks, cold = heat.result()
-        actuator, no_actuator = motor.result()
-        lasting = held.result()
-    return Evidence(
-        machine=machine,
-        stress=stress,
-        stress_checks=stress_checks,
-        stress_missing="" if stress else " ".join(unstressed),
-        temperatures=warm,
-        heat_checks=heat_checks,
-        heat_missing="" if warm else " ".join(cold),
-        actuator=actuator,
-        actuator_missing=no_actuator,
-        drawn=drawn,
-        drawn_missing=undrawn,
-        lasting_torque=lasting,
-    )
+        return replace(told(), drawn=drawn, drawn_missing=undrawn), made.result()
 
 
 def _actuator(machine: Machine, specimen: Specimen) -> tuple[ActuatorParameters | None, str]:

@@ -21,7 +21,7 @@ from cqdd_design.machine.cures import ROUGHLY, torques_that_hold
 from cqdd_design.machine.dowels import LoadedDowels, loaded_dowels
 from cqdd_design.machine.temperatures import MachineTemperatures
 from cqdd_design.results import Check
-from cqdd_design.solids.motor_rules import MOST_HUB, bell_material, bell_torque
+from cqdd_design.solids.motor_rules import MOST_HUB, bell_material, bell_torque, bonded_length
 
 _MEGA = 1e6
 _CURRENT = "motor.current_limit"
@@ -124,7 +124,7 @@ def _bell(machine: Machine, warm: MachineTemperatures | None) -> Check:
         hot, guessed = max(warm.hottest("rotor"), warm.hottest("shaft")), ""
     metal = find_material(bell_material(design))
     limit = bond_limit(ROTOR_COMPOUND, metal, hot)
-    stub, hub = layout.shaft.support.bearing.bore_diameter, motor.hub_top - motor.hub_bottom
+    stub, hub = layout.shaft.support.bearing.bore_diameter, bonded_length(motor)
     long = min(hub, MOST_HUB * stub)
     idle = f" (of which {1e3 * long:.3g} carry)" if long < hub - 1e-9 else ""
     torque = bell_torque(design, layout.motor_row)

@@ -14,7 +14,7 @@ from cqdd_design.machine import Machine
 from cqdd_design.results import Check, worst_status
 from cqdd_design.verdict.evidence import Evidence, Progress, gather
 from cqdd_design.verdict.headline import Figure, headline
-from cqdd_design.verdict.lines import verdict_lines
+from cqdd_design.verdict.lines import lines_without_drawn, with_drawn
 
 Meets = Literal["yes", "no", "unknown"]
 _AT_LIMIT = 1.005
@@ -169,8 +169,12 @@ def judge(
     GeometryError
         When disc, ring or holes cannot exist.
     """
-    evidence = gather(
-        machine, specimen, samples=samples, sensitivity=sensitivity, progress=progress
+    evidence, lines = gather(
+        machine,
+        specimen,
+        lines_without_drawn,
+        samples=samples,
+        sensitivity=sensitivity,
+        progress=progress,
     )
-    lines = verdict_lines(evidence)
-    return Verdict(machine.given.name, lines, evidence)
+    return Verdict(machine.given.name, with_drawn(evidence, lines), evidence)

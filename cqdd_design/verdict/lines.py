@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from contextlib import suppress
 
 from cqdd_design.errors import ContactError
@@ -38,8 +39,14 @@ _BODIES = tuple(
 _HEAT = ("THERMAL-RISE", "THERMAL-CLEARANCE")
 
 
-def verdict_lines(evidence: Evidence) -> tuple[Check, ...]:
-    """Every line, in the order of the first screen, then bodies, heat, motor and yield."""
+def with_drawn(evidence: Evidence, lines: Sequence[Check]) -> tuple[Check, ...]:
+    """Every line: those of perfect parts, yield, and what else is asked."""
+    drawn = yield_line(evidence.machine, evidence.drawn, evidence.drawn_missing, lines)
+    return (*lines, drawn, *asked_lines(evidence, lines))
+
+
+def lines_without_drawn(evidence: Evidence) -> tuple[Check, ...]:
+    """Lines of perfect parts, in the order of the first screen, then bodies, heat and motor."""
     machine = evidence.machine
     carried = _carried(machine)
     lines: list[Check] = []
@@ -68,8 +75,7 @@ def verdict_lines(evidence: Evidence) -> tuple[Check, ...]:
         uncooled="" if machine.design.drive.thermal_resistance else evidence.heat_missing,
         lasting=evidence.lasting_torque,
     )
-    drawn = yield_line(machine, evidence.drawn, evidence.drawn_missing, lines)
-    return (*lines, drawn, *asked_lines(evidence, lines))
+    return tuple(lines)
 
 
 def _carried(machine: Machine) -> dict[str, Check]:

@@ -26,7 +26,8 @@ from cqdd_design.machine.output_loads import output_loads
 from cqdd_design.machine.screws import ScrewJoint, screw_joints
 from cqdd_design.machine.temperatures import MachineTemperatures
 from cqdd_design.results import Check
-from cqdd_design.solids.motor_rules import bell_torque
+from cqdd_design.solids.features.kinds import Chamfer
+from cqdd_design.solids.motor_rules import bell_torque, bonded_length
 from cqdd_design.solids.mounting import forces
 from cqdd_design.verdict.creep_lines import creep_lines
 from cqdd_design.verdict.joint_lines import joint_lines
@@ -133,7 +134,17 @@ def test_the_bells_hub_is_as_long_as_the_motors_torque_asks_for(machine: Machine
     assert constant is not None
     assert torque == pytest.approx(constant * 50.5)
     limit = bond_limit(ROTOR_COMPOUND, find_material("7075-T6"), 120.0).value
-    length = motor.hub_top - motor.hub_bottom
+    length = bonded_length(motor)
+    bell = next(part for part in machine.parts if part.name == "rotor bell")
+    ends = [
+        one.width
+        for one in bell.features
+        if isinstance(one, Chamfer) and one.inside and one.radius == 0.5 * stub
+    ]
+    assert len(ends) == 2
+    assert length == pytest.approx(motor.hub_top - motor.hub_bottom - sum(ends))
+    line = lines_of(machine)["BELL-JOINT"]
+    assert line.value == pytest.approx(1e-6 * joint_shear(torque, stub, length))
     assert joint_shear(torque, stub, length) <= limit < joint_shear(torque, stub, length - 0.5e-3)
     weaker = machine.changed({"motor.current_limit": "20 A"}).layout.motor
     assert weaker is not None
@@ -266,8 +277,7 @@ def test_no_more_of_a_hub_carries_than_two_diameters(machine: Machine) -> None:
     vars(longer).update(vars(machine) | {"layout": ends})
     told = next(one for one in joint_lines(longer, None) if one.id == "BELL-JOINT")
     assert f"(of which {2e3 * stub:.3g} carry)" in told.substituted
-    bonded = motor.hub_top - motor.hub_bottom
-    assert told.value == pytest.approx(line.value * bonded / (2.0 * stub))
+    assert told.value == pytest.approx(line.value * bonded_length(motor) / (2.0 * stub))
 
 
 def test_what_settles_takes_more_from_short_screws() -> None:

@@ -21,6 +21,8 @@ from cqdd_design.machine.shaft import disc_heights
 from cqdd_design.machine.temperatures import MachineTemperatures
 from cqdd_design.sizing.shafts import AT_PEAK, BONDS, SHAFT
 from cqdd_design.solids.features import zones
+from cqdd_design.solids.features.kinds import Chamfer
+from cqdd_design.solids.registers import LEAD_IN
 from cqdd_design.verdict.cam_line import CAM_JOINT, CAM_WALL, cam_line, cam_lines
 
 DESIGNS = Path(__file__).resolve().parents[2] / "designs"
@@ -79,7 +81,14 @@ def test_it_is_the_disc_at_the_height_of_the_drawn_cam(machine: Machine, cam: Lo
     middle = disc_heights(pack)[cam.place]
     assert pack.cam_bottom(2) < middle < pack.cam_top(2)
     (drawn,) = (part for part in machine.parts if part.name == "eccentric cam")
-    assert cam.length == pytest.approx(sum(one.height for one in drawn.shape.layers))
+    ends = [
+        one.width
+        for one in drawn.features
+        if isinstance(one, Chamfer) and one.inside and one.radius == 0.5 * cam.diameter
+    ]
+    height = sum(one.height for one in drawn.shape.layers)
+    # Chamfers that the face leaves less room for take less.
+    assert height - 2.0 * LEAD_IN <= cam.length <= height - sum(ends) + 1e-12
 
 
 def test_the_press_fit_may_leave_play(machine: Machine, cam: LooseCam) -> None:

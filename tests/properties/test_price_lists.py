@@ -79,6 +79,19 @@ def test_what_is_ordered_to_a_size_is_known_by_its_pattern() -> None:
     assert not is_to_size("iso 4762 m3 x - 12.9")
 
 
+def test_a_price_by_an_older_standard_is_of_the_same_part(plain: Machine, tmp_path: Path) -> None:
+    row = next(one for one in bill_of(plain) if one.designation.startswith("ISO 4762 "))
+    older = next(one for one in row.substitutes.split("; ") if one.startswith("DIN 912 "))
+    path = tmp_path / "prices.csv"
+    path.write_text(f"designation,price,currency\n{older},0.25,EUR\n", encoding="utf-8")
+    found = {one.designation: one for one in priced(bill_of(plain), read_prices(path))}
+    assert found[row.designation].price_each == 0.25
+    both = f"designation,price,currency\n{older},0.25,EUR\n{row.designation},0.3,EUR\n"
+    path.write_text(both, encoding="utf-8")
+    with pytest.raises(UsageError, match="lines 2 and 3 both price"):
+        read_prices(path)
+
+
 @pytest.mark.parametrize(
     ("row", "near"),
     [("dics 2", "'disc 2'"), ("carrier colum", "'carrier column'"), ("disc 7", "'disc 3'")],

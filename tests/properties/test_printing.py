@@ -18,7 +18,7 @@ from cqdd_design.exporting.bill.known import catalogue_designations
 from cqdd_design.exporting.printing.compensate import Compensation, compensated, grown
 from cqdd_design.exporting.printing.coupon import HOLE_OFFSETS, PIN_OFFSETS, coupon
 from cqdd_design.exporting.printing.marks import marks
-from cqdd_design.exporting.printing.package import coupon_of, printed_parts
+from cqdd_design.exporting.printing.package import coupons_of, printed_parts
 from cqdd_design.exporting.printing.readme import readme_text
 from cqdd_design.exporting.printing.threads import ThreadedHoles, with_inserts
 from cqdd_design.exporting.solids.bom import bill_of_materials
@@ -26,7 +26,11 @@ from cqdd_design.geometry.contours import Circle, as_complex
 from cqdd_design.machine import resolve
 from cqdd_design.roads.export import export
 from cqdd_design.solids.features.holes import FittedHole
+from cqdd_design.solids.features.kinds import ON_AXIS, Chamfer, Groove
+from cqdd_design.solids.walls import least_walls
 from cqdd_design.verdict.retention_lines import retention_lines
+
+PLASTIC = "PC-CF FDM along layers"
 
 
 @pytest.fixture(scope="module")
@@ -95,7 +99,7 @@ def test_a_measured_coupon_brings_sizes_back_as_drawn(machine, every):
     pins = [2.0 * one.shape.outer.radius for one in raised if isinstance(one.shape.outer, Circle)]
     measured = [(1.0 - shrunk) * one + small for one in bores]
     grown_pins = [(1.0 - shrunk) * one + large for one in pins]
-    text = " ".join(readme_text(machine.design, every, test).split())
+    text = " ".join(readme_text(machine.design, every, [test]).split())
     found = re.search(
         r"bores, drawn ([\d.]+) mm in the mean, and pins, drawn ([\d.]+) mm, the errors are the "
         r"mean of all as measured less \(1 - shrinkage\) times that",
@@ -116,6 +120,99 @@ def test_a_measured_coupon_brings_sizes_back_as_drawn(machine, every):
                 assert printed == pytest.approx(2.0 * wanted.radius, abs=1e-6)
         printed = 2.0 * made.shape.outer.radius * (1.0 - shrunk) + large
         assert printed == pytest.approx(2.0 * drawn.shape.outer.radius, abs=1e-6)
+
+
+def test_edges_of_files_are_those_of_the_drawn_part(every):
+    """As wide as drawn: a spigot that a lead-in was kept short for still finds its seat."""
+    parts = {one.drawn.name: one for one in every}
+    assert not [cut for cut in parts["disc"].made.cuts if cut.centres == (ON_AXIS,)]
+    for one in every:
+        drawn, scale = one.drawn.turned, one.by.scale
+        assert len(one.made.features) == len(drawn)
+        for file, wanted in zip(one.made.features, drawn, strict=True):
+            if isinstance(wanted, Chamfer):
+                assert file.width == pytest.approx(scale * wanted.width, rel=1e-12)
+                assert file.radius == pytest.approx(scale * wanted.radius, rel=1e-12)
+                assert file.height == pytest.approx(scale * wanted.height, rel=1e-12)
+    cover, clamp = parts["output cover"].made, parts["ring clamp"].made
+    (seat,) = (f for f in parts["output cover"].drawn.fits if f.inside and f.lead_in)
+    (lead,) = (
+        f
+        for f in cover.features
+        if f.inside and f.radius == pytest.approx(0.5 * seat.diameter * parts["disc"].by.scale)
+    )
+    assert lead.width < 0.25e-3
+    spigot = max(
+        f.height - f.width
+        for f in clamp.features
+        if not f.inside and f.facing == "up" and f.radius == pytest.approx(lead.radius)
+    )
+    assert spigot > lead.height + lead.width + 0.3e-3
+
+
+def test_an_edge_moves_with_the_measured_error_of_its_side(every):
+    by = Compensation(0.004, -120e-6, 50e-6, measured=True)
+    part = next(one.drawn for one in every if one.drawn.name == "carrier plate")
+    assert {type(one) for one in part.turned} == {Chamfer, Groove}
+    for file, drawn in zip(compensated(part, by).features, part.turned, strict=True):
+        error = -120e-6 if drawn.inside else 50e-6
+        radius = "radius" if isinstance(drawn, Chamfer) else "cylinder"
+        printed = 2.0 * getattr(file, radius) * (1.0 - 0.004) + error
+        assert printed == pytest.approx(2.0 * getattr(drawn, radius), abs=1e-12)
+        if isinstance(drawn, Groove):
+            assert file.diameter * (1.0 - 0.004) + error == pytest.approx(drawn.diameter, abs=1e-12)
+            assert (file.top - file.bottom) * 0.996 == pytest.approx(drawn.top - drawn.bottom)
+
+
+def test_what_a_coupon_showed_is_of_its_plastic_alone(design, tmp_path):
+    mixed = design.replacing({"housing.material": "ABS", "printing.shrinkage": 0.004})
+    machine = resolve(mixed)
+    parts = printed_parts(machine, machine.parts)
+    of = {one.drawn.name: one.by for one in parts}
+    # Most parts follow the housing.
+    assert (of["housing"].shrinkage, of["housing"].measured) == (0.004, True)
+    assert of["disc"] == Compensation(0.003, 0.0, 0.0, measured=False)
+    two = mixed.replacing(
+        {
+            "printing.material": PLASTIC,
+            "printing.others": [{"material": "ABS", "hole_error": "-80 um"}],
+        }
+    )
+    machine = resolve(two)
+    parts = printed_parts(machine, machine.parts)
+    of = {one.drawn.name: one.by for one in parts}
+    assert of["disc"] == Compensation(0.004, 0.0, 0.0, measured=True)
+    assert of["housing"].shrinkage == pytest.approx(0.007)
+    assert (of["housing"].hole_error, of["housing"].measured) == (-80e-6, True)
+    tests = coupons_of(parts)
+    assert [one.part.material for one in tests] == ["ABS", PLASTIC]
+    text = readme_text(two, parts, tests)
+    assert "Test coupon of ABS" in text
+    assert f'material = "{PLASTIC}"' in text
+    assert "printed-13-coupon-pc-cf-fdm-along-layers.step" in text
+    files = {one.path.name for one in export(two, ("print",), tmp_path)}
+    assert {"printed-13-coupon-abs.3mf", "printed-13-coupon-pc-cf-fdm-along-layers.3mf"} <= files
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"printing.material": "PA66"}, "no printed part is of that; they are of PC-CF FDM along"),
+        ({"printing.others": [{"material": PLASTIC}]}, "has 'PC-CF FDM along layers' twice"),
+    ],
+)
+def test_a_coupon_of_no_plastic_of_the_design_is_refused(design, changes, words):
+    machine = resolve(design.replacing({"printing.hole_error": "10 um", **changes}))
+    with pytest.raises(DesignError, match=words):
+        printed_parts(machine, machine.parts)
+
+
+def test_the_wall_of_a_thread_without_an_insert_is_that_of_its_thread(machine, every):
+    judged = {one.part: one for one in least_walls(machine.parts)}
+    for one in every:
+        bare = [hole for hole in one.threads if hole.insert is None]
+        if bare and one.wall is not None:
+            assert one.wall.thickness <= judged[one.drawn.name].thickness + 1e-12
 
 
 def test_curves_move_along_their_normals(machine):
@@ -199,7 +296,7 @@ def test_walls_of_plastic_are_judged_by_what_can_be_printed(machine):
 
 
 def test_the_coupon_has_bores_and_pins_of_the_fits_at_every_offset(every):
-    test = coupon_of(every)
+    (test,) = coupons_of(every)
     assert test.sizes == (5e-3, 19e-3, 21e-3)
     plate = test.part.shape.layers[0]
     holes = sorted(round(2.0 * hole.radius, 7) for hole in plate.shape.holes)
@@ -242,7 +339,7 @@ def test_no_fit_no_coupon():
 
 
 def test_the_readme_says_what_was_done_and_what_is_left(design, machine, every):
-    text = " ".join(readme_text(design, every, coupon_of(every)).split())
+    text = " ".join(readme_text(design, every, coupons_of(every)).split())
     assert text.isascii()
     assert "Scaled by 1.00301 for a shrinkage of 0.3 %, holes drawn +0 um" in text
     assert "nothing measured yet" in text
@@ -255,7 +352,7 @@ def test_the_readme_says_what_was_done_and_what_is_left(design, machine, every):
     assert "bores and pins of 5, 19, 21 mm" in text
     measured = design.replacing({"printing.outside_error": "60 um", "printing.shrinkage": 0.002})
     again = " ".join(
-        readme_text(measured, printed_parts(resolve(measured), machine.parts), None).split()
+        readme_text(measured, printed_parts(resolve(measured), machine.parts), ()).split()
     )
     assert (
         "shrinkage of 0.2 %, holes drawn +0 um and outsides -60 um on the diameter (measured)"

@@ -20,6 +20,7 @@ from cqdd_design.errors import UsageError
 from cqdd_design.gearbox.bodies.made import elastic_bodies
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
+from cqdd_design.gearbox.heat.expansion import PartTemperatures
 from cqdd_design.gearbox.precision.precision import precision
 from cqdd_design.gearbox.tolerance.draws import GROUPS, draw_errors, profile_amplitudes
 from cqdd_design.gearbox.tolerance.ensemble import (
@@ -30,6 +31,7 @@ from cqdd_design.gearbox.tolerance.ensemble import (
     work_here,
 )
 from cqdd_design.gearbox.tolerance.evaluate import (
+    FREEDOM,
     LOADS,
     OUTPUTS,
     RANKED,
@@ -145,6 +147,17 @@ def test_numbers_do_not_depend_on_threads_or_blocks() -> None:
     assert not np.array_equal(bodies.rubbing, bodies.smooth)
     pieces = [work_block(ensemble, Block(first, 4)) for first in (8, 0, 4)]
     assert np.array_equal(one, np.concatenate([pieces[1], pieces[2], pieces[0]]))
+
+
+def test_what_a_tight_gearbox_has_without_load_needs_no_whole_turn_under_load() -> None:
+    hot = PartTemperatures(ring=20.0, disc=130.0, carrier=100.0, pin=130.0, shaft=20.0)
+    ensemble = make_ensemble(paper(), temperatures=hot)
+    alone = replace(ensemble, outputs=FREEDOM)
+    whole = work_block(ensemble, Block(0, 6))[:, [OUTPUTS.index(name) for name in FREEDOM]]
+    assert np.all(whole[:, 1:] > 0.0), "none is tight"
+    assert np.array_equal(work_block(alone, Block(0, 6)), whole)
+    few, all_angles = (run_ensemble(one, 4, sensitivity=False) for one in (alone, ensemble))
+    assert few.solves * 5 < all_angles.solves
 
 
 def test_tables_of_one_design_are_made_once_whether_it_yields_or_not(

@@ -15,6 +15,7 @@ from cqdd_design.design import Design, load_design
 from cqdd_design.design.duty_log import DutyLog
 from cqdd_design.gearbox.heat.expansion import AS_DRAWN
 from cqdd_design.gearbox.output_bearing import OutputLoad, axial_share, static_load, static_safety
+from cqdd_design.gearbox.tolerance.evaluate import FREEDOM
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.capacity import LoadedContacts
 from cqdd_design.machine.heat_nodes import NODES
@@ -54,7 +55,8 @@ def test_warm_aluminium_takes_clearance_of_gearboxes_with_part_errors(
     light: Machine, warm: MachineTemperatures
 ) -> None:
     """Pins go outward on their circle, holes of steel discs do not: backlash and stiffness fall."""
-    drawn = drawn_gearboxes(light, 32, sensitivity=False, warm=lambda: warm)
+    asked = light.changed({"requirements.stiffness": "1 N*m/arcmin"})
+    drawn = drawn_gearboxes(asked, 32, sensitivity=False, warm=lambda: warm)
     assert drawn.warm is not None
     cold, tight = drawn.continuous.columns, drawn.warm.columns
     assert drawn.warm.ensemble.temperatures.carrier == round(warm.hot.temperatures.carrier)
@@ -63,6 +65,11 @@ def test_warm_aluminium_takes_clearance_of_gearboxes_with_part_errors(
     assert np.percentile(tight["stiffness_Nm_per_arcmin"], 5) < np.percentile(
         cold["stiffness_Nm_per_arcmin"], 5
     )
+    # Where no stiffness is asked for, none is looked for there.
+    free = drawn_gearboxes(light, 32, sensitivity=False, warm=lambda: warm).warm
+    assert free is not None
+    for name in FREEDOM:
+        assert np.array_equal(free.columns[name], tight[name])
 
 
 def test_a_carrier_of_steel_is_not_drawn_warm(light: Machine) -> None:

@@ -1,6 +1,7 @@
 """Prices that a user fills in: a CSV file of designation, price, currency and vendor.
 
-Bought parts are named by their designation in the bill, made ones by the name of the part. Rows of
+Bought parts are named by their designation in the bill, or that of an older standard for the same
+part, as ``DIN 912`` for ``ISO 4762``; made ones by the name of the part. Rows of
 parts that this machine does not use are left alone, as long as another may have them.
 """
 
@@ -16,6 +17,7 @@ from types import MappingProxyType
 
 from cqdd_design.errors import UsageError, nearest_names, shown
 from cqdd_design.exporting.bill.known import MADE_PARTS, catalogue_designations, is_to_size
+from cqdd_design.exporting.bill.substitutes import by_newer_standard
 from cqdd_design.files import read_regular_file
 
 COLUMNS = ("designation", "price", "currency", "vendor")
@@ -44,7 +46,7 @@ class Price:
 
 @dataclass(frozen=True)
 class PriceList:
-    """Prices of a file, by designation without regard to case and runs of blanks."""
+    """Prices of a file, by designation; case, runs of blanks and older standards do not matter."""
 
     path: Path
     prices: Mapping[str, Price]
@@ -155,4 +157,4 @@ def _price(path: Path, line: int, cells: list[str], places: Mapping[str, int]) -
 
 
 def _key(name: str) -> str:
-    return " ".join(name.lower().split())
+    return by_newer_standard(" ".join(name.split())).lower()

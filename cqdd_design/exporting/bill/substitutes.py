@@ -69,6 +69,21 @@ def substitutes(machine: Machine, part: Part) -> tuple[str, ...]:
     return tuple(found)
 
 
+def by_newer_standard(designation: str) -> str:
+    """A designation with the standard that bills name instead of an older one of the same part.
+
+    Examples
+    --------
+    >>> by_newer_standard("DIN 912 M3 x 8 - 12.9")
+    'ISO 4762 M3 x 8 - 12.9'
+    """
+    plain = designation.upper()
+    for newer, older in _OLDER_STANDARDS:
+        if plain.startswith(older):
+            return newer + designation[len(older) :]
+    return designation
+
+
 def passes(machine: Machine, change: Mapping[str, Any]) -> bool:
     """Whether a machine with a change fails no closed-form check that it passes as it is."""
     from cqdd_design.machine import resolve

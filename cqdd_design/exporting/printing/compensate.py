@@ -31,10 +31,11 @@ from cqdd_design.geometry.contours import (
     as_complex,
     as_points,
 )
+from cqdd_design.solids.features.kinds import Chamfer, Groove
 from cqdd_design.solids.layers import Layer, Stack
 
 if TYPE_CHECKING:
-    from cqdd_design.design.printing import Printing
+    from cqdd_design.design.printing import PrintedErrors
     from cqdd_design.solids.part import Part
 
 _CORNER = 1e-3
@@ -55,7 +56,7 @@ class Compensation:
     hole_error, outside_error : float
         Of diameters, measured less what shrinkage alone leaves of those drawn, m.
     measured : bool
-        Whether the design states any of them.
+        Whether the design states any of them, of this plastic.
     """
 
     shrinkage: float
@@ -69,21 +70,21 @@ class Compensation:
         return 1.0 / (1.0 - self.shrinkage)
 
 
-def compensation(material: PrintedMaterial, printing: Printing | None) -> Compensation:
-    """Of a material on the printer that a design describes."""
-    if printing is None:
+def compensation(material: PrintedMaterial, measured: PrintedErrors | None) -> Compensation:
+    """Of a material, by what was measured of it on the printer; None where nothing was."""
+    if measured is None:
         return Compensation(material.shrinkage, 0.0, 0.0, measured=False)
-    stated = printing.shrinkage
+    stated = measured.shrinkage
     return Compensation(
         material.shrinkage if stated is None else stated,
-        printing.hole_error,
-        printing.outside_error,
+        measured.hole_error,
+        measured.outside_error,
         measured=True,
     )
 
 
 def compensated(part: Part, by: Compensation) -> Part:
-    """A part as its file has it.
+    """A part as its file has it, with the chamfers and grooves of the drawn one.
 
     Raises
     ------
@@ -95,7 +96,37 @@ def compensated(part: Part, by: Compensation) -> Part:
         for layer in part.shape.layers
     )
     return replace(
-        part, shape=Stack(layers), catalogue_mass=None, exact_section=None, fitted_section=None
+        part,
+        shape=Stack(layers),
+        catalogue_mass=None,
+        exact_section=None,
+        fitted_section=None,
+        stated=tuple(_turned(one, by) for one in part.turned),
+        edged=True,
+    )
+
+
+def _turned(feature: Chamfer | Groove, by: Compensation) -> Chamfer | Groove:
+    """A chamfer or a groove, on the edge or the cylinder that the file has."""
+    off = 0.5 * (by.hole_error if feature.inside else by.outside_error)
+
+    def across(radius: float) -> float:
+        return by.scale * (radius - off)
+
+    if isinstance(feature, Chamfer):
+        return replace(
+            feature,
+            radius=across(feature.radius),
+            height=by.scale * feature.height,
+            width=by.scale * feature.width,
+        )
+    return replace(
+        feature,
+        diameter=2.0 * across(0.5 * feature.diameter),
+        cylinder=across(feature.cylinder),
+        bottom=by.scale * feature.bottom,
+        top=by.scale * feature.top,
+        fillet=by.scale * feature.fillet,
     )
 
 

@@ -3,13 +3,14 @@
 ::
 
     <out>/print/<name>-disc.step   .stl   .3mf     of every part of plastic, compensated
-                <name>-coupon.step .3mf            to be measured, not compensated
+                <name>-coupon.step .3mf            to be measured, not compensated; of several
+                                                   plastics one each, coupon-abs
                 README.txt                         what was done to the parts, and what is left
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -30,6 +31,7 @@ from cqdd_design.solids.walls import least_walls
 
 if TYPE_CHECKING:
     from cqdd_design.design import Design
+    from cqdd_design.design.printing import PrintedErrors
     from cqdd_design.exporting.job import ExportJob
     from cqdd_design.machine import Machine
     from cqdd_design.solids.part import Part
@@ -52,11 +54,13 @@ def export_print(job: ExportJob) -> tuple[WrittenFile, ...]:
     for one in every:
         piece = replace(one.made, instances=on_axis(one.made.name, HOUSING))
         files += _files(job, piece, file_label(piece.name), stl=True)
-    test = coupon_of(every)
-    if test is not None:
-        files += _files(job, test.part, "coupon", stl=False)
+    tests = coupons_of(every)
+    several = len({one.material.material for one in every}) > 1
+    for test in tests:
+        label = f"coupon-{file_label(test.part.material)}" if several else "coupon"
+        files += _files(job, test.part, label, stl=False)
     readme = job.folder / FOLDER / "README.txt"
-    text = readme_text(job.design, every, test)
+    text = readme_text(job.design, every, tests)
     return (*files, write_atomically(readme, text, "print"))
 
 
@@ -83,15 +87,22 @@ def _no_plastic(design: Design) -> DesignError:
 
 
 def printed_parts(machine: Machine, parts: Iterable[Part]) -> tuple[PrintedPart, ...]:
-    """Those of the parts of a machine that are of a plastic to be printed or moulded."""
+    """Those of the parts of a machine that are of a plastic to be printed or moulded.
+
+    Raises
+    ------
+    DesignError
+        When [printing] names a plastic that none of them is of, or one twice.
+    """
     plastics, found = printed_materials(), []
-    for part in parts:
-        material = plastics.get(part.material)
-        if material is None or part.source != "make":
-            continue
-        by = compensation(material, machine.design.printing)
+    printed = [part for part in parts if part.material in plastics and part.source == "make"]
+    measured = _measured(machine.design, [part.material for part in printed])
+    for part in printed:
+        material = plastics[part.material]
+        by = compensation(material, measured.get(part.material))
         bored, threads = with_inserts(part, material.least_wall)
-        walls = least_walls([bored])
+        # Threads are as wide as they will be; an insert's hole is wider.
+        walls = least_walls([replace(bored, stated=part.stated)])
         found.append(
             PrintedPart(
                 part, compensated(bored, by), by, material, threads, walls[0] if walls else None
@@ -100,12 +111,37 @@ def printed_parts(machine: Machine, parts: Iterable[Part]) -> tuple[PrintedPart,
     return tuple(found)
 
 
-def coupon_of(every: tuple[PrintedPart, ...]) -> Coupon | None:
-    """The coupon of the material that most of the parts are of."""
-    names = [one.material.material for one in every]
+def _measured(design: Design, names: Sequence[str]) -> dict[str, PrintedErrors]:
+    """What was measured, by the plastic it was measured of, of parts of plastics `names`."""
+    printing = design.printing
+    if printing is None or not names:
+        return {}
     usual = max(names, key=names.count)
-    parts = [one.drawn for one in every if one.material.material == usual]
-    return coupon(parts, usual)
+    found: dict[str, PrintedErrors] = {printing.material or usual: printing}
+    for one in printing.others:
+        if one.material in found:
+            raise DesignError(
+                f"{design.file_name}: [printing] has '{one.material}' twice; each plastic stands "
+                "there once, the one without a name being the plastic that most parts are of."
+            )
+        found[one.material] = one
+    for name in found:
+        if name not in names:
+            raise DesignError(
+                f"{design.file_name}: [printing] names '{name}', and no printed part is of that; "
+                f"they are of {', '.join(sorted(set(names)))}."
+            )
+    return found
+
+
+def coupons_of(every: Sequence[PrintedPart]) -> tuple[Coupon, ...]:
+    """A coupon of every plastic that has a fit for one, that of most parts first."""
+    names = [one.material.material for one in every]
+    tests = [
+        coupon([one.drawn for one in every if one.material.material == name], name)
+        for name in sorted(set(names), key=lambda name: (-names.count(name), names.index(name)))
+    ]
+    return tuple(one for one in tests if one is not None)
 
 
 def _files(job: ExportJob, part: Part, label: str, *, stl: bool) -> list[WrittenFile]:

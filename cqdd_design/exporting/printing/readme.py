@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from cqdd_design.catalog import find_material
-from cqdd_design.files import ascii_text
+from cqdd_design.files import ascii_text, file_label
 from cqdd_design.solids.features.kinds import fit_label
 from cqdd_design.version import __version__
 
@@ -20,8 +20,8 @@ _MM, _UM = 1e3, 1e6
 _WIDTH = 78
 
 
-def readme_text(design: Design, parts: Sequence[PrintedPart], test: Coupon | None) -> str:
-    """Return the README of a package; `test` is None where no fit goes on a coupon."""
+def readme_text(design: Design, parts: Sequence[PrintedPart], tests: Sequence[Coupon]) -> str:
+    """Return the README of a package; `tests` are none where no fit goes on a coupon."""
     title = f"{design.file_name}: printed and moulded parts"
     lines = [title, "=" * len(title), ""]
     lines += _wrapped(
@@ -39,7 +39,13 @@ def readme_text(design: Design, parts: Sequence[PrintedPart], test: Coupon | Non
     )
     for one in parts:
         lines += ["", *_heading(f"{design.file_name}, {one.drawn.name}"), *_part(one)]
-    lines += ["", *_heading("Test coupon"), *_coupon(design, test)]
+    several = len({one.material.material for one in parts}) > 1
+    for test in tests:
+        lines += ["", *_heading(f"Test coupon of {test.part.material}")]
+        lines += _coupon(design, test, several=several)
+    if not tests:
+        lines += ["", *_heading("Test coupon")]
+        lines += _wrapped("No fit of the design is of a size that goes on a coupon.")
     lines += ["", f"Design {design.sha256[:16]}, cqdd-design {__version__}.", ""]
     return "\n".join(lines)
 
@@ -88,16 +94,15 @@ def _part(one: PrintedPart) -> Iterator[str]:
         yield from _wrapped(f"Fit: {fit_label(fit)}; finished as told above.", "- ")
 
 
-def _coupon(design: Design, test: Coupon | None) -> Iterator[str]:
-    if test is None:
-        yield from _wrapped("No fit of the design is of a size that goes on a coupon.")
-        return
+def _coupon(design: Design, test: Coupon, *, several: bool) -> Iterator[str]:
+    material = test.part.material
+    label = f"coupon-{file_label(material)}" if several else "coupon"
     sizes = ", ".join(f"{_MM * size:g}" for size in test.sizes)
     yield from _wrapped(
-        f"{design.file_name}-coupon.step and .3mf hold bores and pins of {sizes} mm, each in a "
+        f"{design.file_name}-{label}.step and .3mf hold bores and pins of {sizes} mm, each in a "
         "row: the number at the left is the nominal diameter, those below are by how many "
         "hundredths of a millimetre each is drawn larger. Nothing in it is compensated. Print it "
-        "as the parts will be, same material, layers and speed, and let it cool.",
+        f"as the parts of {material} will be, same layers and speed, and let it cool.",
     )
     if test.left_out:
         left = ", ".join(f"{_MM * size:g}" for size in test.left_out)
@@ -108,15 +113,21 @@ def _coupon(design: Design, test: Coupon | None) -> Iterator[str]:
         f"bores, drawn {_MM * test.mean_hole:.3f} mm in the mean, and pins, drawn "
         f"{_MM * test.mean_pin:.3f} mm, the errors are the mean of all as measured less "
         "(1 - shrinkage) times that. Or try bearings and pins: where the bore drawn +20 takes what "
-        "belongs into it, holes come out 200 um small, hole_error is -200 um and shrinkage times "
-        "the diameter.",
+        "belongs into it, holes come out 200 um small, and hole_error is shrinkage times the "
+        "diameter less 200 um.",
     )
     yield from (
         "",
         "    [printing]",
+        *([f'    material = "{material}"'] if several else []),
         '    hole_error = "-120 um"      # measured less drawn and shrunk, on the diameter',
         '    outside_error = "60 um"',
         "    shrinkage = 0.003",
     )
     yield ""
+    if several:
+        yield from _wrapped(
+            "Of each further plastic the same stands in a table [[printing.others]] of its own; "
+            "parts of one that is not there are made by the catalogue's shrinkage."
+        )
     yield from _wrapped("Then export again: files take it off, and this text says so.")

@@ -70,7 +70,8 @@ class ThreadedHoles:
 def with_inserts(part: Part, least_wall: float) -> tuple[Part, tuple[ThreadedHoles, ...]]:
     """A part with holes for inserts instead of its threads, and what they are.
 
-    What a drill or a turning tool would leave beside, countersinks and points, it does not have.
+    It keeps the chamfers and grooves that are turned about its axis; what a drill would leave,
+    countersinks and points, it does not have.
 
     Parameters
     ----------
@@ -128,7 +129,8 @@ def with_inserts(part: Part, least_wall: float) -> tuple[Part, tuple[ThreadedHol
         )
         for layer in part.shape.layers
     )
-    return replace(part, shape=Stack(layers), stated=()), tuple(found)
+    bored = replace(part, shape=Stack(layers), stated=part.turned, edged=True)
+    return bored, tuple(found)
 
 
 def _fitting(thread: float, depth: float, room: float) -> Insert | None:

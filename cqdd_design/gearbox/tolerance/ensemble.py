@@ -49,7 +49,7 @@ class Ensemble:
     seed : int
     temperatures : PartTemperatures
     outputs : tuple of str
-        What is found of every gearbox: `OUTPUTS`, or `LOADS` or `RANKED` alone.
+        What is found of every gearbox: `OUTPUTS`, or `LOADS`, `RANKED` or `FREEDOM` alone.
     at_rest : bool
         Whether friction is that of a gearbox that stands, without films.
     """
@@ -187,7 +187,7 @@ def make_ensemble(
     temperatures : PartTemperatures
         Of the parts of all gearboxes.
     outputs : tuple of str
-        `OUTPUTS`, or `LOADS` where nothing else is asked, which takes half of the time.
+        `OUTPUTS`, or `LOADS` or `FREEDOM` where nothing else is asked, in half of the time.
     rigid : bool
         Whether discs and ring do not yield although they could.
     at_rest : bool

@@ -36,8 +36,9 @@ from cqdd_design.gearbox.tolerance.following_kernel import follow, room, turns_b
 BACKLASH, TRANSMISSION_ERROR, RING_FORCE, STIFFNESS, RIPPLE = range(5)
 PRESSURE, CAM_LOAD, PRELOAD, IDLE_TORQUE = range(5, 9)
 RESULTS = 9
-LOADS_ALONE, RANKED_ALONE, EVERYTHING = range(3)
-"""How much of a gearbox is asked: its greatest loads; those with backlash and ripple; all."""
+LOADS_ALONE, RANKED_ALONE, FREEDOM_ALONE, EVERYTHING = range(4)
+"""How much of a gearbox is asked: its greatest loads; those with backlash and ripple; what it has
+without load; all."""
 _NEXT_TO_NOTHING = 1e-3
 """Load of a gearbox without load, over the torque: what hangs loose then has its place."""
 
@@ -210,6 +211,34 @@ def _swing(
 
 
 @part()
+def _turns(
+    nominal: Nominal,
+    found: Toleranced,
+    springs: Springs,
+    load: Load,
+    start: Start,
+    shared: Shared,
+) -> int:
+    """Whether the marked angles have equilibria under the torque; -1, or a failing angle."""
+    discs, contacts = nominal.gaps.shape[1:]
+    some = np.flatnonzero(start.marked)
+    return int(
+        follow(
+            nominal,
+            found,
+            springs,
+            load,
+            shared.rubbing,
+            shared.compliance,
+            (some, turns_between(nominal, some)),
+            room(0, discs, contacts),
+            start.perfect,
+            room(some.size, discs, contacts),
+        )
+    )
+
+
+@part()
 def _windup(
     nominal: Nominal,
     found: Toleranced,
@@ -352,7 +381,8 @@ def solve_gearbox(
     asked : int
         `EVERYTHING`, or less in less time: `LOADS_ALONE` leaves all but `RING_FORCE`, `PRESSURE`
         and `CAM_LOAD`, `RANKED_ALONE` leaves `STIFFNESS`, `PRELOAD` and `IDLE_TORQUE`. What is
-        found is the same to the bit.
+        found is the same to the bit. `FREEDOM_ALONE` finds `BACKLASH`, `PRELOAD` and `IDLE_TORQUE`,
+        and asks the marked angles alone for an equilibrium under load.
     values : array (9,)
         Out, in SI, in the order of the module's names: backlash and transmission error in rad,
         ripple and idle torque at the crank.
@@ -362,15 +392,19 @@ def solve_gearbox(
     int
         -1, or the angle that has no equilibrium.
     """
-    found, whole = _with_errors(nominal, errors), room(*nominal.gaps.shape)
-    stopped = _greatest(nominal, found, springs, load, start, shared, whole, values)
-    if stopped >= 0 or asked == LOADS_ALONE:
-        return stopped
-    _swing(nominal, found, shared, springs.teeth, whole, values)
-    if asked == EVERYTHING:
-        stopped = _windup(nominal, found, springs, load, start, shared, whole, values)
-        if stopped >= 0:
+    found = _with_errors(nominal, errors)
+    if asked == FREEDOM_ALONE:
+        stopped = _turns(nominal, found, springs, load, start, shared)
+    else:
+        whole = room(*nominal.gaps.shape)
+        stopped = _greatest(nominal, found, springs, load, start, shared, whole, values)
+        if stopped >= 0 or asked == LOADS_ALONE:
             return stopped
+        _swing(nominal, found, shared, springs.teeth, whole, values)
+        if asked == EVERYTHING:
+            stopped = _windup(nominal, found, springs, load, start, shared, whole, values)
+    if stopped >= 0:
+        return stopped
     some = np.flatnonzero(start.marked)
     tight = np.zeros(some.size, dtype=np.bool_)
     stopped = _free(nominal, found, start, errors, tight, values)

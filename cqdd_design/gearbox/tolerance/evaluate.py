@@ -60,6 +60,13 @@ RANKED: tuple[str, ...] = (
 )
 """Of the outputs, those by which a report ranks the tolerances, in three quarters of the time."""
 
+FREEDOM: tuple[str, ...] = (
+    "backlash_arcmin",
+    "preload_force_max_N",
+    "unloaded_torque_Nm",
+)
+"""Of the outputs, what a gearbox has without load, in half of the time or less."""
+
 _ARCMIN = math.degrees(1.0) * 60.0
 
 _FILM_ANGLES = 24
@@ -279,7 +286,8 @@ def evaluate_gearboxes(
     threads : int, optional
         Default all; the numbers do not depend on it.
     outputs : tuple of str
-        `OUTPUTS`, or `LOADS` or `RANKED` alone, (S, 3), whose numbers are the same.
+        `OUTPUTS`, or `LOADS`, `RANKED` or `FREEDOM` alone. The numbers are the same, but that those
+        of `FREEDOM` jam at angles of `marked_angles` alone.
 
     Raises
     ------
@@ -297,7 +305,11 @@ def evaluate_gearboxes(
     springs = springs_of(model)
     load = Load(torque / states.length, stiffness_scale(model, torque))
     solve: Any = kernel.solve_gearbox
-    alone = {LOADS: kernel.LOADS_ALONE, RANKED: kernel.RANKED_ALONE}
+    alone = {
+        LOADS: kernel.LOADS_ALONE,
+        RANKED: kernel.RANKED_ALONE,
+        FREEDOM: kernel.FREEDOM_ALONE,
+    }
     asked = alone.get(outputs, kernel.EVERYTHING)
 
     def work(which: int) -> None:

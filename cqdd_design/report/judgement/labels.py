@@ -131,6 +131,8 @@ _LABELS = {
     "printing.hole_error": Label("printed holes measured less drawn and shrunk"),
     "printing.outside_error": Label("printed outsides measured less drawn and shrunk"),
     "printing.shrinkage": Label("shrinkage of printed parts"),
+    "printing.material": Label("plastic of the test coupon"),
+    "printing.others": Label("what coupons of other plastics showed"),
 }
 
 

@@ -20,7 +20,7 @@ def hub_features(motor: InrunnerLayout, stub_radius: float) -> tuple[Feature, ..
     """Of the rotor's carrier; its datum is its bore."""
     bore = seat(
         "bonded bore", 2.0 * stub_radius, motor.hub_bottom, motor.hub_top, zones.BELL_BORE,
-        inside=True, datum="A",
+        inside=True, datum="A", lead_in=LEAD_IN,
     )  # fmt: skip
     ring = seat(
         "seat of the rotor", 2.0 * motor.rotor_inner, motor.ring_bottom, motor.ring_top,

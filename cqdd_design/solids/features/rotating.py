@@ -13,6 +13,7 @@ from cqdd_design.solids.features.kinds import Feature, Joint, Seat
 from cqdd_design.solids.features.making import BEARING_FACE, SHAFT_RIM, relief, seat, shoulder
 from cqdd_design.solids.layout import PackLayout, ShaftLayout
 from cqdd_design.solids.motor_layout import InrunnerLayout, MotorEnd
+from cqdd_design.solids.registers import LEAD_IN
 
 _MM, _UM = 1e3, 1e6
 
@@ -153,7 +154,7 @@ def loose_cam_features(
     """Of the cam of the third disc; its datum is its bore."""
     bore = seat(
         "bore", 2.0 * shaft.shoulder_radius, pack.cam_top(1), pack.cam_top(2), zones.CAM_BORE,
-        inside=True, ground=True, datum="A",
+        inside=True, ground=True, datum="A", lead_in=LEAD_IN,
     )  # fmt: skip
     lobe = lobe_features(pack, shaft, 2, position, collar="up", refers="A", zone=zones.LOOSE_LOBE)
     how = _ground_before(pack, shaft)
