@@ -11,6 +11,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
+from cqdd_design.gearbox.tolerance.evaluate import OUTPUTS
 from cqdd_design.gearbox.tolerance.run import FIRST, ToleranceResult
 from cqdd_design.machine import Machine
 from cqdd_design.machine.temperatures import known_temperatures
@@ -57,9 +58,12 @@ def drawn_alike(hunt: Hunt, machine: Machine) -> Drawn:
         calibrate(hunt, machine, found)
         return found
     assert hunt.yielding is not None
-    # Warm gearboxes yield as those do that are under the same torque.
-    shares = (*hunt.yielding, hunt.yielding[0])
-    both = zip(rigid.every, shares, strict=False)
+    shares = list(hunt.yielding)
+    if rigid.warm is not None:
+        # Warm gearboxes yield as those do that are under the same torque.
+        columns = [OUTPUTS.index(name) for name in rigid.warm.ensemble.outputs]
+        shares.append(hunt.yielding[0][columns])
+    both = zip(rigid.every, shares, strict=True)
     return Drawn(*(replace(one, values=one.values * share) for one, share in both))
 
 

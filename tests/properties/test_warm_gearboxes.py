@@ -28,6 +28,9 @@ from cqdd_design.machine.temperatures import (
 )
 from cqdd_design.machine.warm_cycle import WarmCycle
 from cqdd_design.sizing.exact import yielding_checks
+from cqdd_design.sizing.hunt import Hunt
+from cqdd_design.sizing.stage_tables import stage_tables
+from cqdd_design.sizing.trial_gearboxes import drawn_alike
 from cqdd_design.verdict.drawn import TIGHT, drawn_cam_hours, drawn_gearboxes, good_gearboxes
 from cqdd_design.verdict.retention_lines import axial_growth
 
@@ -232,3 +235,18 @@ def test_a_push_that_balls_do_not_take_chooses_crossed_rollers(design_8: Design)
 def design_8() -> Design:
     design = load_design(ROOT / "docs" / "gallery" / "knee-8.toml")
     return design.leaving("reducer.carrier_bearing.designation")
+
+
+def test_a_search_scales_warm_gearboxes_by_what_yielding_made_of_others(light: Machine) -> None:
+    """Of their outputs alone, which are fewer where no stiffness is asked for."""
+    asked = light.design.requirements
+    hunt = Hunt(asked, None, None, lambda _: None, stage_tables(asked.ratio), "mass", usual={})
+    drawn_alike(hunt, light)
+    again = drawn_alike(hunt, light)
+    direct = drawn_gearboxes(light, 32, sensitivity=False, warm=lambda: known_temperatures(light))
+    assert again.warm is not None
+    assert direct.warm is not None
+    assert tuple(again.warm.columns) == FREEDOM
+    for name in FREEDOM:
+        found, wanted = (np.quantile(one.columns[name], 0.95) for one in (again.warm, direct.warm))
+        assert found == pytest.approx(wanted, rel=0.1, abs=1e-6), name
