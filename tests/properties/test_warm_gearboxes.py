@@ -247,6 +247,7 @@ def test_a_search_scales_warm_gearboxes_by_what_yielding_made_of_others(light: M
     assert again.warm is not None
     assert direct.warm is not None
     assert tuple(again.warm.columns) == FREEDOM
-    for name in FREEDOM:
-        found, wanted = (np.quantile(one.columns[name], 0.95) for one in (again.warm, direct.warm))
-        assert found == pytest.approx(wanted, rel=0.1, abs=1e-6), name
+    found, wanted = (
+        np.quantile(one.columns["backlash_arcmin"], 0.95) for one in (again.warm, direct.warm)
+    )
+    assert found == pytest.approx(wanted, rel=0.05)
