@@ -314,6 +314,14 @@ class Requirements(FrozenModel):
         return max(self.input_speed, self.ratio * duty)
 
     @property
+    def equal_speed(self) -> float:
+        """Mean input speed of a duty with its rest, or that of the continuous torque, rad/s."""
+        cases = self.load_cases
+        if not cases:
+            return self.held_speed
+        return self.ratio * sum(one.share * abs(one.speed) for one in cases)
+
+    @property
     def equal_torque(self) -> float:
         """The torque that stands for a duty, or without one the continuous torque, N m.
 

@@ -40,8 +40,12 @@ from cqdd_design.gearbox.tolerance.evaluate import (
     ensemble_tables,
     evaluate_gearboxes,
 )
+from cqdd_design.gearbox.tolerance.limits import lasting_hours, limits
 from cqdd_design.gearbox.tolerance.run import run_ensemble
 from cqdd_design.gearbox.tolerance.sobol import sobol_indices
+from cqdd_design.machine import resolve
+from cqdd_design.sizing.exact import yielding_checks
+from cqdd_design.verdict.drawn import Allowed
 
 PAPER = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
 ARCMIN = np.pi / 180.0 / 60.0
@@ -382,3 +386,39 @@ def test_gearboxes_let_the_rest_of_a_report_go_first(monkeypatch):
     run_ensemble(make_ensemble(paper(), angles=110), 2, sensitivity=False)
     assert len(seen) == 2
     assert min(seen) > os.getpriority(os.PRIO_PROCESS, threading.get_native_id())
+
+
+# ------------------------------------------------------------------ limits
+
+
+def test_limits_of_a_steady_duty_are_those_of_the_continuous_torque() -> None:
+    plain = paper()
+    asked = plain.requirements
+    turns = {"torque": f"{asked.continuous_torque} N*m", "speed": f"{asked.input_speed / 10} rad/s"}
+    steady = plain.replacing({"requirements.duty": [turns | {"share": 1.0}]})
+    assert limits(steady) == pytest.approx(limits(plain))
+    half = plain.replacing({"requirements.duty": [turns | {"share": 0.5}]})
+    cam, pressure = "cam_bearing_load_max_N", "ring_pressure_max_MPa"
+    # Half of the turns: more by the root of two to the exponent of balls.
+    assert limits(half)[cam] == pytest.approx(2.0 ** (1.0 / 3.0) * limits(plain)[cam])
+    assert limits(half)[pressure] > limits(plain)[pressure]
+    stands = plain.replacing({"requirements.duty": [turns | {"share": 1.0, "speed": "0 rad/s"}]})
+    assert cam not in limits(stands)
+    assert lasting_hours(stands, 1e9) is None
+
+
+def test_pressures_of_a_duty_last_as_its_verdict_says() -> None:
+    """By its own sweeps with bodies that yield the verdict's is within a per cent."""
+    steps = [
+        {"torque": "12 N*m", "speed": "2 rad/s", "share": 0.2},
+        {"torque": "-4 N*m", "speed": "3 rad/s", "share": 0.5},
+    ]
+    machine = resolve(paper().replacing({"requirements.duty": steps}))
+    lines = yielding_checks(machine)
+    allowed = Allowed.of(machine, lines)
+    assert allowed is not None
+    found = limits(machine.design)
+    assert found["ring_pressure_max_MPa"] == pytest.approx(allowed.lasting_pressure, rel=0.01)
+    assert found["cam_bearing_load_max_N"] == pytest.approx(allowed.lasting_load, rel=0.06)
+    hours = lasting_hours(machine.design, 1e6 * found["ring_pressure_max_MPa"])
+    assert hours == pytest.approx(machine.design.requirements.life_hours)
