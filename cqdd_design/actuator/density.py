@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import math
 
+from cqdd_design.actuator.motor import torque_constant_at
 from cqdd_design.actuator.parameters import DriveParameters, MotorParameters
 
 
 def torques_of_drive(
-    motor: MotorParameters, drive: DriveParameters, ratio: float
+    motor: MotorParameters, drive: DriveParameters, ratio: float, ambient: float
 ) -> dict[str, float]:
-    """Torques at the output that driver and motor allow, N m, losses left out."""
-    torques = {"driver_limited_Nm": motor.torque_constant * drive.current_limit * ratio}
+    """Torques at the output that driver and motor allow, N m, losses left out.
+
+    Of a motor whose magnets are as warm as the air, `ambient` in deg C.
+    """
+    constant = float(torque_constant_at(motor, ambient))
+    torques = {"driver_limited_Nm": constant * drive.current_limit * ratio}
     by_motor = motor.peak_torque * ratio
     return torques | ({"motor_limited_Nm": by_motor} if math.isfinite(by_motor) else {})
 

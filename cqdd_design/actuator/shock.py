@@ -208,7 +208,9 @@ def simulated_torque(parameters: ActuatorParameters, speed: float, current: floa
 
 def _peak_of_drive(parameters: ActuatorParameters) -> float:
     motor, ratio = parameters.motor, abs(parameters.gear.ratio)
-    return min(torques_of_drive(motor, parameters.drive, ratio).values())
+    return min(
+        torques_of_drive(motor, parameters.drive, ratio, parameters.thermal.ambient).values()
+    )
 
 
 def peak_current(parameters: ActuatorParameters) -> float:

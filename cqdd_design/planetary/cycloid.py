@@ -30,6 +30,8 @@ class CycloidLimit:
         Torque at which `value` reaches `limit`, N*m.
     model : str
         What `value` and `torque_capacity` rest on.
+    reached : bool
+        False where the contact equilibrium ends at `torque_capacity`, before the limit.
     """
 
     part: str
@@ -41,6 +43,7 @@ class CycloidLimit:
     unit: str
     torque_capacity: float
     model: str = ""
+    reached: bool = True
 
     def __post_init__(self) -> None:
         """Refuse what has no margin."""
@@ -75,11 +78,14 @@ class CycloidLimit:
             "margin": self.margin,
             "model": self.model,
             "torque_capacity_Nm": self.torque_capacity,
+            "reached": self.reached,
         }
 
 
 def binding_limit(limits: Sequence[CycloidLimit], load: LoadName) -> CycloidLimit | None:
     """The limit of this load reached at the least torque; None when there is none.
+
+    Of limits at one torque that which is reached; the equilibrium may end there before others are.
 
     Examples
     --------
@@ -90,6 +96,6 @@ def binding_limit(limits: Sequence[CycloidLimit], load: LoadName) -> CycloidLimi
     """
     return min(
         (limit for limit in limits if limit.load == load),
-        key=lambda limit: limit.torque_capacity,
+        key=lambda limit: (limit.torque_capacity, not limit.reached),
         default=None,
     )

@@ -129,4 +129,5 @@ def _drive_peak(machine: Machine, specimen: Specimen) -> float | None:
         motor, drive, _ = motor_and_drive(machine, specimen)
     except DesignError:
         return None
-    return min(torques_of_drive(motor, drive, machine.design.reducer.ratio).values())
+    ratio, ambient = machine.design.reducer.ratio, machine.design.environment.ambient
+    return min(torques_of_drive(motor, drive, ratio, ambient).values())

@@ -129,6 +129,7 @@ def cycloid_limits(machine: Machine) -> tuple[CycloidLimit, ...]:
             unit=one.unit,
             torque_capacity=one.torque,
             model=one.model,
+            reached=one.reached,
         )
         for one in torque_limits(machine)
     )

@@ -15,6 +15,8 @@ from cqdd_design.actuator.bench import METRICS, run_bench
 from cqdd_design.actuator.bench.bandwidth import crossing, saturation_limits, sensor
 from cqdd_design.actuator.bench.gear import order_spectrum
 from cqdd_design.actuator.build import actuator_parameters
+from cqdd_design.actuator.joint_side import joint_side
+from cqdd_design.actuator.motor import torque_constant_at
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.specimen import Specimen
 from cqdd_design.design import load_design
@@ -42,6 +44,21 @@ def test_the_inertia_is_the_same_in_any_air(actuator: ActuatorParameters, air: f
     there = changed(actuator, thermal={"ambient": air})
     (found,) = run_bench(there, only=("actuator_inertia",)).metrics
     assert found.value == pytest.approx(found.details["from_solids_kgm2"], rel=0.005)
+
+
+@pytest.mark.parametrize("air", [-20.0, 60.0])
+def test_peak_torque_and_card_count_the_same_magnets(
+    actuator: ActuatorParameters, air: float
+) -> None:
+    there = changed(actuator, thermal={"ambient": air})
+    found = {
+        one.name: one for one in run_bench(there, only=("peak_torque", "stall_torque")).metrics
+    }
+    assert found["peak_torque"].value == pytest.approx(joint_side(there).peak_torque)
+    assert found["stall_torque"].value < found["peak_torque"].value
+    warm = float(torque_constant_at(there.motor, air)) / there.motor.torque_constant
+    driver = there.torque_limit * warm
+    assert found["peak_torque"].details["driver_limited_Nm"] == pytest.approx(driver)
 
 
 def changed(actuator: ActuatorParameters, **parts: dict[str, float]) -> ActuatorParameters:

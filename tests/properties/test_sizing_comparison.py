@@ -1,6 +1,7 @@
 """The comparison with a planetary: the cycloid's limits are those of its checks."""
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,8 @@ from cqdd_design.machine import resolve
 from cqdd_design.machine.capacity import LoadedContacts
 from cqdd_design.machine.carrying import EQUILIBRIUM, RIGID, torque_limits
 from cqdd_design.machine.contact_analysis import analyse_contact
+from cqdd_design.planetary.cycloid import binding_limit
+from cqdd_design.report.judgement.planetary import limit_rows
 from cqdd_design.sizing.comparison import (
     DEFAULT_STEEL,
     compare_with_planetary,
@@ -36,6 +39,19 @@ def limits(papers):
 @pytest.fixture(scope="module")
 def compared(papers):
     return compare_with_planetary(papers)
+
+
+def test_a_limit_that_contact_ends_before_is_not_told_as_reached():
+    """Of the printed gearbox the parts move out of reach before anything gives way."""
+    printed = load_design(Path(__file__).parents[2] / "designs" / "printed-13.toml")
+    found = cycloid_limits(resolve(printed))
+    assert not any(one.reached for one in found)
+    rows = limit_rows(found)
+    assert all("where contact ends: not reached" in told for *_, (told, _) in rows)
+    one = found[0]
+    assert one.to_dict()["reached"] is False
+    beside = replace(one, part="pins", reached=True)
+    assert binding_limit([one, beside], one.load).part == "pins"
 
 
 @pytest.mark.deep

@@ -105,7 +105,12 @@ def _locked_torque(
 
 def peak_torque(parameters: ActuatorParameters, gearbox: CarriedTorque | None = None) -> Metric:
     """Torque constant times current times ratio, at the driver's limit or the motor's peak."""
-    details = torques_of_drive(parameters.motor, parameters.drive, abs(parameters.gear.ratio))
+    details = torques_of_drive(
+        parameters.motor,
+        parameters.drive,
+        abs(parameters.gear.ratio),
+        parameters.thermal.ambient,
+    )
     peak = min(details.values())
     return Metric(
         "peak_torque",
@@ -113,7 +118,8 @@ def peak_torque(parameters: ActuatorParameters, gearbox: CarriedTorque | None = 
         "given",
         "Torque constant times the driver's current limit times the ratio, or the motor's peak "
         "torque by its catalogue times the ratio, whichever is less; losses left out, so that a "
-        "measured peak is compared with stall_torque.",
+        "measured peak is compared with stall_torque. Magnets at "
+        f"{parameters.thermal.ambient:g} degC.",
         details=details | _first_limit(gearbox),
         remark="" if gearbox is None else gearbox.told(peak),
     )
@@ -270,7 +276,7 @@ def efficiency_peak(
         f"On {supply:g} V, steady grid of {points} speeds up to {top * RPM:.0f} rpm and {points} "
         f"currents up to {most:.3g} A in both senses, as far as the supply drives them, and finer "
         "around the best: mean mechanical over mean electrical power at the motor's terminals, the "
-        f"inverse where it generates; winding at {motor.reference_temperature:g} degC."
+        f"inverse where it generates; winding at {parameters.thermal.ambient:g} degC."
     )
     if not grid.driving.any():
         return Metric(

@@ -6,6 +6,7 @@ import math
 
 from cqdd_design.actuator.bench import BenchResult
 from cqdd_design.actuator.demands import Demand, demands, duty_heat
+from cqdd_design.actuator.density import torques_of_drive
 from cqdd_design.actuator.envelope import (
     LimitCurve,
     driver_torque,
@@ -46,11 +47,13 @@ def actuator_view(
     """
     points = demands(parameters, requirements)
     drive, thermal = parameters.drive, parameters.thermal
+    ratio = abs(parameters.gear.ratio)
+    unrubbed = torques_of_drive(parameters.motor, drive, ratio, thermal.ambient)
     lead = (
         f"Torque at the output with the gearbox's friction taken off, on "
         f"{with_unit(drive.supply_voltage, 'V')} with at most "
         f"{with_unit(drive.current_limit, 'A')}: without friction the driver's limit would be "
-        f"{with_unit(parameters.torque_limit, 'N*m', 3)}. Heat by two thermal nodes in "
+        f"{with_unit(unrubbed['driver_limited_Nm'], 'N*m', 3)}. Heat by two thermal nodes in "
         f"{with_unit(thermal.ambient, 'degC')}, the winding at most at "
         f"{with_unit(thermal.most, 'degC')}, copper in the winding, friction and iron in the "
         "housing."

@@ -62,10 +62,15 @@ def limit_rows(limits: Iterable[CycloidLimit]) -> tuple[tuple[object, ...], ...]
             limit.part,
             limit.title,
             f"{significant(limit.value)} of {with_unit(limit.limit, limit.unit)}",
-            (with_unit(limit.torque_capacity, "N*m", 3), limit.holds),
+            (_capacity(limit), limit.holds),
         )
         for limit in sorted(limits, key=lambda one: (one.load != "peak", one.torque_capacity))
     )
+
+
+def _capacity(limit: CycloidLimit) -> str:
+    told = with_unit(limit.torque_capacity, "N*m", 3)
+    return told if limit.reached else f"{told}, where contact ends: not reached"
 
 
 def limit_models(limits: Iterable[CycloidLimit]) -> str:
