@@ -46,6 +46,10 @@ from cqdd_design.terms import life_text
 _MEGA = 1e6
 _WIDER = "leave room for larger support bearings (a cam bearing with a larger bore)"
 _LIGHTER = "lower the torque or the external loads"
+_RATED = (
+    "name a carrier_bearing.designation whose ratings are known, or, where none of the catalogue "
+    "goes round this carrier, change output_pins.circle_radius so that one does"
+)
 _HALVINGS = 20
 """Of the share of external loads that a bearing bears."""
 
@@ -272,7 +276,8 @@ def _output(
     if other is not None and other.bears and other.bearing != machine.seats[1].bearing:
         ways.append(f"set carrier_bearing.designation to '{other.bearing.designation}'")
     ways += [less] if (less := _less_from_outside(machine, passes)) else []
-    lines = both(", or ".join(ways) or _LIGHTER)
+    rated = machine.seats[1].bearing.static_rating is not None
+    lines = both(", or ".join(ways) or (_LIGHTER if rated else _RATED))
     lower = {} if machine.stiff else _less_torque(machine, lines)
     told = [
         replace(one, remedy=", or ".join((*ways, lower[one.id]))) if one.id in lower else one

@@ -61,6 +61,15 @@ def test_peak_torque_and_card_count_the_same_magnets(
     assert found["peak_torque"].details["driver_limited_Nm"] == pytest.approx(driver)
 
 
+def test_an_output_that_winds_up_a_motor_which_sticks_is_no_steady_point() -> None:
+    """Turned from the output against friction, a printed gearbox was told to bear 8900 N m."""
+    printed = resolve(load_design(PAPER.with_name("printed-13.toml")))
+    (found,) = run_bench(actuator_parameters(printed), only=("efficiency_peak",)).metrics
+    torque = found.trace["torque [N m]"]
+    assert len(torque) > 80
+    assert np.abs(torque).max() < 250.0
+
+
 def changed(actuator: ActuatorParameters, **parts: dict[str, float]) -> ActuatorParameters:
     """The actuator with fields of its parts replaced: ``friction={"load_forward": 0.0}``."""
     new = {

@@ -392,3 +392,16 @@ def test_pins_that_break_at_once_are_told_with_the_stress_there_is(paper):
     told = re.search(r"torques of the duty to ([\d.]+) % of", line.remedy)
     lived = machine.under(duty_share=0.01 * float(told[1])).life
     assert 1.0 <= lived.parts[-1].reserve < 1.1
+
+
+def test_no_torque_helps_a_bearing_whose_rating_is_not_known(paper, monkeypatch) -> None:
+    monkeypatch.setattr("cqdd_design.verdict.shaft_lines.bearing_for_loads", lambda _: None)
+    machine = replace(resolve(paper), stiff=True)
+    inner, outer = machine.seats
+    unrated = replace(outer.bearing, static_rating=None, dynamic_rating=None)
+    vars(machine)["seats"] = (inner, replace(outer, bearing=unrated))
+    lines = {one.id: one for one in shaft_lines(machine)}
+    for name in ("OUTPUT-STATIC", "OUTPUT-LIFE"):
+        assert lines[name].status == "unknown"
+        assert "torque" not in lines[name].remedy
+        assert "whose ratings are known" in lines[name].remedy

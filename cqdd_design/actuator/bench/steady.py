@@ -203,7 +203,7 @@ def _columns(run: Simulation, *names: str, index: int = 0) -> dict[str, FloatArr
 class _Powers(NamedTuple):
     """Steady points (P,): output speed, rad/s, torque, N m, and efficiency, 0 where it is none.
 
-    `reached` where the supply drives the current that was asked for.
+    `reached` where the supply drives the current that was asked for, and the motor goes along.
     """
 
     speed: FloatArray
@@ -236,13 +236,16 @@ def _powers(parameters: ActuatorParameters, speed: FloatArray, current: FloatArr
     late = run.time > 0.2
     electrical = (run.voltage * run.current)[:, late].mean(axis=1)
     mechanical = (run.output_torque * run.output_speed)[:, late].mean(axis=1)
-    driving = (electrical > 0.0) & (mechanical > 0.0)
-    generating = (electrical < 0.0) & (mechanical < 0.0)
+    # A motor that sticks while its output is turned winds the gearbox up: no steady point.
+    turning, wanted = run.motor_speed[:, late].mean(axis=1), abs(ratio) * speed
+    along = np.abs(turning - wanted) < 0.02 * wanted
+    driving = (electrical > 0.0) & (mechanical > 0.0) & along
+    generating = (electrical < 0.0) & (mechanical < 0.0) & along
     efficiency = np.zeros(len(scenes))
     efficiency[driving] = (mechanical / electrical)[driving]
     efficiency[generating] = (electrical / mechanical)[generating]
-    reached = np.abs(run.current[:, late].mean(axis=1) - current) < 0.02 * np.abs(current)
-    return _Powers(speed, mechanical / speed, efficiency, driving, reached)
+    driven = np.abs(run.current[:, late].mean(axis=1) - current) < 0.02 * np.abs(current)
+    return _Powers(speed, mechanical / speed, efficiency, driving, driven & along)
 
 
 def efficiency_peak(
