@@ -56,7 +56,7 @@ class ComparedActuator:
             return ""
         return (
             f"{self.name}: {self.peak_torque:g} N*m / {self.mass:g} kg is "
-            f"{self.torque_density:.2f} N*m/kg, printed {printed:g}"
+            f"{self.torque_density:.2f} N*m/kg, printed {printed:g} N*m/kg"
         )
 
     def to_dict(self) -> dict[str, object]:

@@ -67,6 +67,25 @@ def demands(parameters: ActuatorParameters, requirements: Requirements) -> tuple
     return (*found, *(_step(parameters, peak, *step) for step in steps))
 
 
+PEAK_AT_SPEED = "peak torque at its speed"
+
+
+def asked_points(parameters: ActuatorParameters, requirements: Requirements) -> tuple[Demand, ...]:
+    """Points of :func:`demands` that are asked for, the peak torque at its speed beside them.
+
+    Under a duty nothing is asked of the continuous torque.
+    """
+    peak, steady, *duty = demands(parameters, requirements)
+    found = [peak]
+    speed = requirements.speed_at_peak
+    if speed is not None:
+        judged = judge(parameters, requirements.peak_torque, speed, lasting=False, hot=False)
+        found.append(replace(peak, name=PEAK_AT_SPEED, speed=speed, found=judged))
+    if not requirements.load_cases:
+        found.append(steady)
+    return (*found, *duty)
+
+
 def _step(
     parameters: ActuatorParameters, peak: float, name: str, torque: float, speed: float
 ) -> Demand:

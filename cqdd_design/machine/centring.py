@@ -72,9 +72,9 @@ def centring(machine: Machine) -> str:
     """How clamp, cover and output are centred; GeometryError as :func:`most_off_centre`."""
     off, seats = most_off_centre(machine), _seats(machine)
     into = (seats["ring clamp", spigot] for _, _, spigot in _FITS)
-    depths = " and ".join(f"{1e3 * (one.top - one.bottom):.2g}" for one in into)
+    depths = " and ".join(f"{1e3 * (one.top - one.bottom):.2g} mm" for one in into)
     fit = (
-        f"Spigots of the ring clamp, {depths} mm deep and {zones.SPIGOT} in {zones.HOUSED}, "
+        f"Spigots of the ring clamp, {depths} deep and {zones.SPIGOT} in {zones.HOUSED}, "
         "centre it in the housing and the output cover on it"
     )
     zone, reading = machine.given.tolerances.output_zone, most_reading(machine)
@@ -93,7 +93,7 @@ def centring(machine: Machine) -> str:
     return (
         f"{fit}{far}. So set it: cover screws just snug, a dial test indicator fixed to the "
         f"output's face, its stylus on the {band.name} of the housing (\u00d8"
-        f"{1e3 * band.diameter:.5g}, {_mm(band.run_out)} mm true to the ring's seat). Turn the "
+        f"{1e3 * band.diameter:.5g} mm, {_mm(band.run_out)} mm true to the ring's seat). Turn the "
         f"output by hand and tap the cover until a whole turn reads {_mm(reading)} mm or less from "
         "lowest to highest; tighten crosswise and read again. The output's axis then lies "
         f"{within} ({stated})."

@@ -58,7 +58,7 @@ def loaded_dowels(machine: Machine) -> tuple[LoadedDowels, ...]:
         found.append(
             LoadedDowels(
                 "ring in its seat",
-                f"{count} of {1e3 * size:g} x {1e3 * ring.length:g} mm",
+                f"{count} of {1e3 * size:g} mm x {1e3 * ring.length:g} mm",
                 torque,
                 0.0,
                 along_a_seam(torque, count, layout.pack.ring_radius, size, ring.bearing_length),

@@ -68,8 +68,8 @@ def _other_magnet(motor: MotorEnd, sensor: EncoderSensor | None) -> str:
     size = (2.0 * motor.magnet_radius, motor.magnet_height)
     if sensor is None or abs(sensor.magnet_diameter - size[0]) < _SAME:
         return ""
-    told = f"{_MM * sensor.magnet_diameter:g} x {_MM * sensor.magnet_height:g} mm"
+    told = f"{_MM * sensor.magnet_diameter:g} mm x {_MM * sensor.magnet_height:g} mm"
     return (
-        f" That gap is for a magnet of {told}, this one is {_MM * size[0]:g} x "
+        f" That gap is for a magnet of {told}, this one is {_MM * size[0]:g} mm x "
         f"{_MM * size[1]:g} mm: let the field that the sensor itself reads decide."
     )

@@ -160,7 +160,7 @@ def _chapters(results: ReportInput) -> list[_Chapter]:
             else {"temperatures": temperatures_view(found.temperatures)},
         ),
         chapter("axial", "Axial play", axial_view(results.machine, found.temperatures)),
-        of_contact("life", "Life", lambda found: life_view(found.life)),
+        of_contact("life", "Life", lambda found: life_view(found.life, design.requirements)),
         chapter(
             "tolerances",
             "Tolerances",

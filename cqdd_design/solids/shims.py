@@ -47,7 +47,7 @@ class ShimSet(NamedTuple):
     @property
     def told(self) -> str:
         """What to buy, in words."""
-        return f"one each of {', '.join(f'{1e3 * one:g}' for one in self.thicknesses)} mm"
+        return f"one each of {', '.join(f'{1e3 * one:g} mm' for one in self.thicknesses)}"
 
     @property
     def clamps(self) -> bool:

@@ -251,7 +251,8 @@ def yield_line(machine: Machine, drawn: Drawn | None, why: str, lines: Sequence[
     if drawn.warm is not None:
         parts = drawn.warm.ensemble.temperatures
         told.append(
-            f"least clearance with discs at {parts.disc:g} and carrier at {parts.carrier:g} degC"
+            f"least clearance with discs at {parts.disc:g} degC and carrier at {parts.carrier:g} "
+            "degC"
         )
     worst = max(fails, key=lambda name: fails[name])
     return build_check(

@@ -44,7 +44,8 @@ def output_seat_line(machine: Machine, warm: MachineTemperatures | None = None) 
     told = (
         f"{row.designation} {ordered.name}, {_UM * ordered.least:.0f} to {_UM * ordered.most:.0f} "
         f"um: {_UM * worst.seated.mean:.1f} \u00b1{_UM * worst.seated.spread:.1f} um are left with "
-        f"its rings at {worst.carrier:.0f} (carrier plate) and {worst.housing:.0f} degC (cover)"
+        f"its rings at {worst.carrier:.0f} degC (carrier plate) and {worst.housing:.0f} "
+        "degC (cover)"
     )
     missing = "temperatures are not known" if warm is None else warm.cold
     over = limit is not None and preload > limit

@@ -28,7 +28,15 @@ pytestmark = pytest.mark.deep
 #: What shares a unit is converted together, what counts pieces is not.
 UNITS = {
     "1270 N/5115.4 N = 0.248 at 120 N\u00b7m": "285.5 lbf/1150 lbf = 0.248 at 1062 lbf\u00b7in",
-    "8 of 1.5 \u00d7 4 mm, 124 of 597 MPa": "8 of 0.05906 \u00d7 0.1575 in, 17.98 of 86.59 ksi",
+    "8 of 1.5 mm \u00d7 4 mm": "8 of 0.05906 in \u00d7 0.1575 in",
+    "124 of 597 MPa": "17.98 of 86.59 ksi",
+    "0.85 \u00d7 32 mm \u00d7 sin(180\u00b0/11)": "0.85 \u00d7 1.26 in \u00d7 sin(180\u00b0/11)",
+    "0.9 \u00d7 10.5641 mm = 9.5077 mm": "0.9 \u00d7 0.415909 in = 0.37432 in",
+    "6 M4 of 12.9, 8 mm deep": "6 M4 of 12.9, 0.315 in deep",
+    "14 needles 2 \u00d7 18.8 mm": "14 needles 0.07874 \u00d7 0.7402 in",
+    "NdFeB N35H 4 \u00d7 2 mm": "NdFeB N35H 0.1575 \u00d7 0.07874 in",
+    "0.12 to 0.19 N m": "1.062 to 1.682 lbf\u00b7in",
+    "1 \u00d7 10\u207b\u2075 N\u00b7m": "8.851\u202f\u00d7\u202f10\u207b\u2075\u202flbf\u00b7in",
     "2 of 4 mm": "2 of 0.1575 in",
     "magnet 6 x 2.5 mm": "magnet 0.2362 x 0.09843 in",
     "M2.5 \u00d7 6 mm": "M2.5 \u00d7 0.2362 in",
@@ -42,6 +50,8 @@ UNITS = {
     "12.88 g\u00b7mm": "0.01789 oz\u00b7in",
     "5.29 kg\u00b7cm\u00b2": "1.808 lb\u00b7in\u00b2",
     "5 \u00b10.3 N\u00b7m": "44.25 \u00b12.655 lbf\u00b7in",
+    "3 N\u00b7m (\u00b11.5 N\u00b7m)": "26.55 lbf\u00b7in (\u00b113.28 lbf\u00b7in)",
+    "40 \u00b110 \u00b0C": "104 \u00b118 \u00b0F",
     "0.88 K/W, 1.7 nm/N": "0.88 K/W, 1.7 nm/N",
 }
 
@@ -50,10 +60,10 @@ TABLES = (
     (
         (("Part", "Room, mm", "Heat, \u00b0C", "input, 10\u207b\u2076 kg\u00b7m\u00b2", "g each"),
          ("disc", "0.33 to 1.09", "40", "1.74", "110.9"),
-         ("ring", "+0.05 / \u22120.05", "\u2013", "0", "28.35")),
+         ("ring", "+0.05 / \u22120.05", "\u2013", "0", "28.35*")),
         (("Part", "Room, in", "Heat, \u00b0F", "input, lb\u00b7in\u00b2", "oz each"),
          ("disc", "0.01299 to 0.04291", "104", "0.005946", "3.912"),
-         ("ring", "+0.001969 / \u22120.001969", "\u2013", "0", "1")),
+         ("ring", "+0.001969 / \u22120.001969", "\u2013", "0", "1*")),
     ),
     (
         (("Quantity", "Mean", "Limit"), ("ring force, N", "1926", "\u2264 2000"),
@@ -72,6 +82,12 @@ TABLES = (
          ("bandwidth", "60", "<0.1\u202f%", "Hz", "\u2013")),
     ),
 )  # fmt: skip
+
+#: Lists whose numbers share a unit that is said once, at the end.
+_MIXED = re.compile(
+    r"\d of \d+, [^;\n]*\u00b0C|\d \([a-z ]+\) and .\d|each of [\d.]+,"
+    r"|\d and [\d.]+\s(?:mm|\u00b0C)"
+)
 
 #: Units there and back, the contents, and what the keyboard reaches.
 _USED = """
@@ -193,6 +209,7 @@ def test_units_go_to_inches_and_back(readers: dict[str, Any]) -> None:
     assert "\u2300 2.835 \u00d7 0.6496\u202fin" in used["us"]
     assert "2 \u00d7 0.315\u202fin" in used["us"], "pieces are no length"
     assert "1.26\u202fin" in used["drawn"]
+    assert _MIXED.findall(used["si"]) == [], "numbers that share a unit said once"
     for row, other in zip(used["seats"], used["converted"], strict=True):
         for cell, new in zip(row, other, strict=True):
             if cell.endswith("\u202fg") and cell.split("\u202f")[0].replace(".", "").isdigit():

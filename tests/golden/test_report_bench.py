@@ -277,7 +277,9 @@ def test_every_step_of_the_duty_is_a_point_and_its_heat_is_told(
     ]
     asked = Design.from_mapping(mapping).requirements
     view = actuator_view(actuator, measured, asked)
-    steps = [point for point, _ in view["points"][2:]]
+    # Of the continuous torque a duty asks nothing.
+    assert view["points"][0][0].name == "peak torque"
+    steps = [point for point, _ in view["points"][1:]]
     assert [point.name for point in steps] == ["duty 1", "duty 2"]
     assert [point.generating for point in steps] == [False, True]
     currents = [point.found.need.current for point in steps]
@@ -285,7 +287,23 @@ def test_every_step_of_the_duty_is_a_point_and_its_heat_is_told(
     mean = math.sqrt(0.5 * currents[0] ** 2 + 0.5 * currents[1] ** 2)
     assert f"{mean:.3g}" in view["duty"]
     assert "within its limit" in view["duty"]
-    assert len(classed(view["envelope"], "circle", "dot")) == 4
+    assert len(classed(view["envelope"], "circle", "dot")) == 3
+
+
+def test_the_speed_of_the_peak_torque_is_a_point_of_its_own(
+    actuator: ActuatorParameters, measured: BenchResult, design: Design
+) -> None:
+    none = actuator_view(actuator, measured, design.requirements)["envelope"]
+    assert "the requirements name no speed for the peak torque" in none.caption
+    asked = design.requirements.model_copy(update={"speed_at_peak": 3.0})
+    view = actuator_view(actuator, measured, asked)
+    names = [point.name for point, _ in view["points"]]
+    assert names == ["peak torque", "peak torque at its speed", "continuous torque"]
+    point, told = view["points"][1]
+    assert (point.torque, point.speed) == (asked.peak_torque, 3.0)
+    assert "120\u202fN\u00b7m at 28.65\u202frpm" in told
+    assert "no speed for the peak torque" not in view["envelope"].caption
+    assert len(classed(view["envelope"], "circle", "dot")) == 3
 
 
 def test_dots_stand_at_their_points(

@@ -196,6 +196,9 @@ def test_what_the_plane_problem_leaves_out_is_a_sentence(
     assert (
         "bearings let" not in contact_view(replace(found, bending=bushed), outlines, law)["bending"]
     )
+    level = replace(found.bending, edge_closing=2.6e-21)
+    told = contact_view(replace(found, bending=level), outlines, law)["bending"]
+    assert "the teeth would close by 0\u202f\u00b5m" in told
     missing = replace(found, bending=None, bending_missing="nothing fits")
     assert contact_view(missing, outlines, law)["bending"].endswith("tilt: nothing fits")
 
@@ -233,7 +236,7 @@ def test_precision_stands_beside_the_paper_only_for_its_design(
     assert not other["measured"]
     assert [row[2] for row in paper["rows"] if row[2]] == [
         "7.03 \u00b1 1.3 arcmin",
-        "3 N\u00b7m (\u00b11.5)",
+        "3 N\u00b7m (\u00b11.5 N\u00b7m)",
     ]
     assert other["rows"] == tuple((row[0], row[1], row[3]) for row in paper["rows"])
     bars = classed(paper["figures"][1], "rect", "share-bar")
@@ -253,9 +256,13 @@ def test_losses_add_up(found: ContactAnalysis) -> None:
     assert shown[-1] == pytest.approx(100.0 * grid.forward[-1, 0], abs=0.05)
 
 
-def test_life_tells_what_does_not_last(found: ContactAnalysis) -> None:
-    view = life_view(found.life)
+def test_life_tells_what_does_not_last(found: ContactAnalysis, design: Design) -> None:
+    view = life_view(found.life, design.requirements)
     assert view["assumed"]
+    assert view["held_speed"] == "the input speed of 1286\u202frpm"
+    slower = design.requirements.model_copy(update={"continuous_speed": 20.0 * math.pi})
+    told = life_view(found.life, slower)["held_speed"]
+    assert told == "the continuous speed of 600\u202frpm"
     holds = {row[0]: row[4][1] for row in view["rows"]}
     for part in found.life.parts:
         lasts = part.hours is None or part.hours >= 1000.0
@@ -271,4 +278,9 @@ def test_tolerances_show_the_ensemble(ensemble: ToleranceResult) -> None:
     (figure,) = (one for one in view["figures"] if one.id == "ranking-backlash")
     names = [e.text for e in classed(figure, "text", "name-dark")]
     assert names == [group.replace("_", " ") for group, _, _ in ranked]
+    # The uncertainty of the first bar's share stands beside it.
+    indices = ensemble.sensitivity["backlash_arcmin"]
+    width = indices.total_half_width[int(np.argmax(indices.total))]
+    told = [e.text for e in classed(figure, "text", "tick")]
+    assert told[0] == f"{100.0 * ranked[0][2]:.0f} \u00b1{100.0 * width:.0f}\u202f%"
     assert len(view["rows"]) == 10

@@ -175,7 +175,7 @@ def test_the_clamp_rests_on_the_housing_and_never_on_the_ring(
     )
     # As deep in the housing as its sheet says, less than in the cover by the play.
     lower, upper = (1e3 * one for one in _spigots(machine))
-    assert f"Spigots of the ring clamp, {lower:.2g} and {upper:.2g} mm deep" in centring(machine)
+    assert f"Spigots of the ring clamp, {lower:.2g} mm and {upper:.2g} mm deep" in centring(machine)
     assert upper - lower == pytest.approx(1e3 * stack.nominal)
     said = next(one for one in AssemblyFacts(machine).notes() if one.startswith("Ring: "))
     assert f"leaves it {1e3 * stack.play[0]:.2f} to {1e3 * stack.play[1]:.2f} mm" in said
@@ -280,7 +280,7 @@ def test_what_is_not_sealed_is_said(machine: Machine) -> None:
 def test_bill_and_sheet_tell_the_shims(machine: Machine) -> None:
     rows = {row.part: row for row in bill_of_materials(machine, machine.parts)}
     assert rows["shaft shim"].designation == "DIN 988 - 16 x 22"
-    assert rows["shaft shim"].fitting.startswith("one each of 0.1, 0.2, 0.3, 0.5 mm")
+    assert rows["shaft shim"].fitting.startswith("one each of 0.1 mm, 0.2 mm, 0.3 mm, 0.5 mm")
     assert "play is then 0.05 to 0.15 mm" in rows["shaft shim"].fitting
     clamped = fitting_notes(machine)["output shim"]
     assert "grind a pack to it, or up to 0.01 mm more: it clamps the split outer ring" in clamped

@@ -14,6 +14,7 @@ from ring_patches import ring_stress_at
 
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.design import Design, load_design
+from cqdd_design.design.requirements import DutyPoint
 from cqdd_design.errors import GeometryError
 from cqdd_design.gearbox.bodies import strength as strength_module
 from cqdd_design.gearbox.bodies import stress as stress_module
@@ -330,6 +331,15 @@ def test_picture_has_its_colours_where_the_stress_is() -> None:
     values = stress_view(strength, body_checks(machine.design, strength), outlines)
     assert values["give"] == "3.6"
     assert values["rows"][0][0] == "round the holes of a disc"
+    lasting = machine.design.requirements.continuous_torque
+    assert (values["lasting"], values["whose"]) == (f"{lasting:g}\u202fN\u00b7m", "")
+    # Over a duty its greatest torque is what is reversed.
+    duty = (DutyPoint(torque="-18 N*m", speed="1 rad/s", share=0.5),)
+    asked = machine.design.requirements.model_copy(update={"duty": duty})
+    under = replace(outlines, design=machine.design.unchecked_copy({"requirements": asked}))
+    view = stress_view(strength, body_checks(machine.design, strength), under)
+    assert view["lasting"] == "18\u202fN\u00b7m"
+    assert "greatest torque of the duty" in view["whose"]
     # Of plastics no fatigue limit is known.
     checks = [replace(one, limit=None) for one in body_checks(machine.design, strength)]
     told = stress_view(strength, checks, outlines)["rows"][0]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -41,6 +42,15 @@ def test_points_are_the_ensembles_of_their_designs() -> None:
     view = tolerance_view(found, points)
     assert len(view["clearances"]) == len(points)
     assert len(view["clearance_figures"]) == 2
+    # The sentence follows the table, whichever way its hours go.
+    assert view["longest"] == "", "no hour anywhere"
+    rising = [replace(point, hours=10.0 + k) for k, point in enumerate(points)]
+    for told, best in ((rising, points[-1]), (rising[::-1], points[-1])):
+        longest = tolerance_view(found, told)["longest"]
+        assert f"offset of {1e6 * best.equidistant:g}\u202f\u00b5m" in longest
+        assert f"hole clearance of {1e6 * best.hole_clearance:g}\u202f\u00b5m" in longest
+    even = [replace(point, hours=10.0) for point in points]
+    assert tolerance_view(found, even)["longest"] == ""
 
 
 def test_gearboxes_of_the_own_clearances_are_not_worked_twice(monkeypatch) -> None:

@@ -14,6 +14,7 @@ from cqdd_design.design import Design, load_design, load_requirements, save_desi
 from cqdd_design.design.duty_file import duty_template, read_columns, read_duty
 from cqdd_design.design.duty_log import DutyColumns, DutyLog
 from cqdd_design.design.duty_spectrum import load_cases
+from cqdd_design.design.requirements import DutyPoint
 from cqdd_design.errors import DesignError, UsageError
 from cqdd_design.gearbox.heat.cycle import settled_cycle
 from cqdd_design.gearbox.heat.network import Heat, ThermalNetwork
@@ -22,6 +23,7 @@ from cqdd_design.machine import resolve
 from cqdd_design.machine.duty_heat import DutyCase, logged_heat
 from cqdd_design.machine.duty_heat import duty_heat as heat_of
 from cqdd_design.machine.temperatures import heat_checks, machine_temperatures
+from cqdd_design.report.judgement.duty import duty_text
 
 PAPER = Path(__file__).parents[2] / "designs" / "cqdd-10.toml"
 HEAD = "time [s],torque [N*m],speed [rad/s]"
@@ -417,6 +419,19 @@ def test_rows_are_judged_as_steps_are(design, parameters):
     assert not any(one.found.inside for one in named)
     assert f"line {worst.line} (" in found.told
     assert duty_heat(parameters, asked).current == pytest.approx(found.current_rms)
+
+
+def test_what_is_asked_of_a_duty_is_its_own_torque() -> None:
+    design = load_design(PAPER)
+    assert duty_text(design.requirements) == ""
+    log = made(np.array([18.0, -18.0, 18.0]), np.array([1.0, -2.0, 1.0]))
+    asked = design.under_duty(log, "made").requirements
+    told = "18\u202fN\u00b7m at most and 18\u202fN\u00b7m r.m.s."
+    assert duty_text(asked) == told
+    # Half of the time at 12 N m, the rest is rest.
+    steps = (DutyPoint(torque="-12 N*m", speed="1 rad/s", share=0.5),)
+    stated = design.requirements.model_copy(update={"duty": steps})
+    assert duty_text(stated) == "12\u202fN\u00b7m at most and 8.485\u202fN\u00b7m r.m.s."
 
 
 def test_a_gentle_duty_is_inside_and_says_how_near(parameters):

@@ -126,7 +126,7 @@ def test_a_gap_that_is_stated_for_another_magnet_is_said_to_be(paper: Design) ->
     assert "That gap is for a magnet" not in set_heights(resolve(paper))[1]
     path = Path(__file__).resolve().parents[2] / "designs" / "printed-13.toml"
     said = set_heights(resolve(load_design(path)))[1]
-    assert "for a magnet of 6 x 2.5 mm, this one is 4 x 2 mm: let the field" in said
+    assert "for a magnet of 6 mm x 2.5 mm, this one is 4 mm x 2 mm: let the field" in said
 
 
 def test_the_bearing_nut_is_tightened_and_locked(paper: Design) -> None:

@@ -236,7 +236,7 @@ def test_what_the_sheet_asks_for_is_what_is_drawn(deviation: float) -> None:
     said = centring(machine)
     assert f"until a whole turn reads {1e3 * reading:.4g} mm or less" in said
     assert f"within a zone of \u00d8{1e3 * zone:.4g} mm about the ring's" in said
-    assert f"\u00d8{2e3 * machine.layout.housing.flange_radius:.5g}," in said
+    assert f"\u00d8{2e3 * machine.layout.housing.flange_radius:.5g} mm," in said
     assert said in AssemblyFacts(machine).notes()
     model = ContactModel.from_design(machine.design)
     drawn = draw_errors(model, machine.design.tolerances, 0, 0, 4000).output_axis

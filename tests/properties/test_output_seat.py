@@ -168,7 +168,7 @@ def test_temperatures_that_are_not_known_leave_it_unknown(of_aluminium, warm) ->
     assert "warmer environment.ambient" in output_seat_line(still, None).remedy
     of_steel = {"housing.material": SHAFT_MATERIAL}
     assert output_seat_line(arctic.changed(of_steel), None).status == "unknown"
-    assert "at -55 (carrier plate)" in line.substituted
+    assert "at -55 degC (carrier plate)" in line.substituted
     # No losses are known of parts that press on each other: what passes is not known then.
     steel = of_aluminium.changed({"reducer.carrier.material": SHAFT_MATERIAL})
     cold = replace(warm, cold="no losses")

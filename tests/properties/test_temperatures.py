@@ -338,6 +338,7 @@ def test_what_no_part_stands_is_told_as_a_measure_of_heat(winding: float, said: 
     line = rise_check(parts, 25.0, 400.0, 390.0)
     assert (line.value, line.status) == (winding, "fail")
     assert ("beyond 300 degC" in line.substituted) is said
+    assert f"winding {winding:.0f} of 120 degC, housing 90 of 80 degC in air" in line.substituted
 
 
 @pytest.mark.deep

@@ -18,7 +18,7 @@ from cqdd_design.errors import CatalogError
 def test_torque_densities_are_recomputed_and_the_wrong_one_is_named() -> None:
     found = {one.name: one for one in published_actuators()}
     assert found["Lee et al."].torque_density == pytest.approx(155.32 / 1.85)
-    assert "83.96 N*m/kg, printed 83.7" in found["Lee et al."].remark
+    assert "83.96 N*m/kg, printed 83.7 N*m/kg" in found["Lee et al."].remark
     assert found["C-QDD (paper)"].torque_density == pytest.approx(64.214, abs=1e-3)
     assert found["C-QDD (paper)"].remark == ""
     assert found["PULSE115-60"].remark == ""

@@ -45,7 +45,7 @@ def rise_check(parts: tuple[WarmPart, ...], ambient: float, heat: float, as_draw
         deg C; all that parts lose at these temperatures, and before they are warm, W.
     """
     worst = max(parts, key=lambda part: part.share(ambient))
-    told = ", ".join(f"{one.name} {one.temperature:.0f} of {one.most:g}" for one in parts)
+    told = ", ".join(f"{one.name} {one.temperature:.0f} of {one.most:g} degC" for one in parts)
     burnt = ""
     if max(one.temperature for one in parts) > BURNT:
         burnt = f"; beyond {BURNT:g} degC that is how much heat is too much, not how warm parts get"
@@ -53,7 +53,7 @@ def rise_check(parts: tuple[WarmPart, ...], ambient: float, heat: float, as_draw
         "THERMAL-RISE",
         worst.temperature,
         worst.most,
-        f"{told} degC in air of {ambient:g} degC; {heat:.0f} W in all, {as_drawn:.0f} before parts "
+        f"{told} in air of {ambient:g} degC; {heat:.0f} W in all, {as_drawn:.0f} before parts "
         f"are warm{burnt}",
         cooling_remedy(),
     )

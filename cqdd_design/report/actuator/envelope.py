@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from cqdd_design.actuator.bench import BenchResult
-from cqdd_design.actuator.demands import Demand, demands, duty_heat
+from cqdd_design.actuator.demands import PEAK_AT_SPEED, Demand, asked_points, duty_heat
 from cqdd_design.actuator.density import torques_of_drive
 from cqdd_design.actuator.envelope import (
     LimitCurve,
@@ -45,7 +45,7 @@ def actuator_view(
     requirements : Requirements
         Its operating points are judged.
     """
-    points = demands(parameters, requirements)
+    points = asked_points(parameters, requirements)
     drive, thermal = parameters.drive, parameters.thermal
     ratio = abs(parameters.gear.ratio)
     unrubbed = torques_of_drive(parameters.motor, drive, ratio, thermal.ambient)
@@ -187,15 +187,18 @@ def envelope_figure(parameters: ActuatorParameters, points: tuple[Demand, ...]) 
         for inside, where in ((True, "inside"), (False, "outside"))
         if (names := [point.name for point in points if point.found.inside is inside])
     )
+    standing = "the requirements name no speed for the peak torque, so it stands at standstill"
+    if any(point.name == PEAK_AT_SPEED for point in points):
+        standing = "the peak torque stands at its speed and at standstill"
     words = Words(
         "envelope",
         "Torque over speed",
         "Output torque over output speed on "
         f"{with_unit(parameters.drive.supply_voltage, 'V')} with the limits of driver, motor and "
         f"heat. Points of the requirements: {told}.",
-        "The motor driving. Filled points lie inside, hollow ones outside; the requirements name "
-        "no speed for the peak torque, so it stands at standstill, where breakaway takes its "
-        "share. Lines of heat follow another limit where it binds first."
+        "The motor driving. Filled points lie inside, hollow ones outside; "
+        f"{standing}, where breakaway takes its share. Lines of heat follow another limit where it "
+        "binds first."
         + (
             " Points where the output drives stand by their size."
             if any(point.generating for point in points)

@@ -30,6 +30,8 @@ if TYPE_CHECKING:
     from cqdd_design.gearbox.contact.solved import ContactSweep
     from cqdd_design.machine.contact_analysis import ContactAnalysis
 
+_ROUNDING = 1e-12
+"""Lengths below are what rounding leaves, m."""
 _TURN = Axis(0.0, 360.0, (0.0, 90.0, 180.0, 270.0, 360.0), "crank angle, \u00b0")
 
 
@@ -176,7 +178,8 @@ def _bending(analysis: ContactAnalysis) -> str:
         return f"No bound on bending and tilt: {analysis.bending_missing}"
 
     def um(value: float) -> str:
-        return with_unit(1e6 * value, "\u00b5m", 3)
+        # Of bodies that stay straight only rounding is left.
+        return with_unit(1e6 * value if abs(value) > _ROUNDING else 0.0, "\u00b5m", 3)
 
     moment = with_unit(bound.carrier_moment, "N*m", 3)
     supports, edge = "", ""

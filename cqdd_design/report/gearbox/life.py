@@ -6,8 +6,10 @@ from typing import TYPE_CHECKING
 
 from cqdd_design.report.ink.numbers import NONE, RPM, per_cent, significant, with_unit
 from cqdd_design.report.ink.page import Values
+from cqdd_design.report.judgement.duty import held_speed_text
 
 if TYPE_CHECKING:
+    from cqdd_design.design import Requirements
     from cqdd_design.gearbox.life import DutyCase, LifeResult, PartLife
 
 _MOST_CASES = 12
@@ -15,7 +17,7 @@ Judged = tuple[str, bool]
 """A value as shown, and whether it is long enough."""
 
 
-def life_view(result: LifeResult) -> Values:
+def life_view(result: LifeResult, asked: Requirements) -> Values:
     """Duty as (torque, speed, share), and the life of every part and bearing."""
     required, cam = result.required_hours, result.cam
     loads = cam.equivalent_load
@@ -39,6 +41,7 @@ def life_view(result: LifeResult) -> Values:
     return {
         "duty": _cases(result.duty),
         "assumed": result.assumed,
+        "held_speed": held_speed_text(asked),
         "required": with_unit(required, "h"),
         "rows": tuple(_row(part, required) for part in result.parts),
         "seat": ", ".join(["Cam bearing", *(one.name for one in result.runners)]),

@@ -107,7 +107,7 @@ def _rows(found: Precision) -> tuple[tuple[str, ...], ...]:
         (
             term("torque_ripple_pp_Nm").words,
             with_unit(found.ripple_pp, "N*m"),
-            f"{2.0 * ripple:g} N\u00b7m (\u00b1{ripple:g})",
+            f"{2.0 * ripple:g} N\u00b7m (\u00b1{ripple:g} N\u00b7m)",
             f"at {torque}, perfect parts; tolerances add far more",
         ),
     )

@@ -14,6 +14,7 @@ from cqdd_design.report.ink.charts import Curve, line_chart
 from cqdd_design.report.ink.numbers import significant, with_unit
 from cqdd_design.report.ink.page import Values
 from cqdd_design.report.ink.svg import Words
+from cqdd_design.report.judgement.duty import held_speed_text
 
 if TYPE_CHECKING:
     from cqdd_design.machine.temperatures import MachineTemperatures
@@ -30,7 +31,7 @@ def temperatures_view(found: MachineTemperatures) -> Values:
     at = (
         "the duty"
         if asked.load_cases
-        else f"{with_unit(asked.continuous_torque, 'N*m')} for ever at the input speed"
+        else f"{with_unit(asked.continuous_torque, 'N*m')} for ever at {held_speed_text(asked)}"
     )
     ambient, stated = found.network.ambient, found.machine.cooling.value
     air = f"still air of {significant(ambient)} °C"

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from cqdd_design.gearbox.tolerance.draws import GROUPS
 from cqdd_design.gearbox.tolerance.evaluate import RANKED
 from cqdd_design.report.ink.bars import bar_chart, histogram
 from cqdd_design.report.ink.charts import Curve, Level, line_chart
@@ -52,6 +54,7 @@ def tolerance_view(result: ToleranceResult, clearances: Sequence[ClearancePoint]
         "figures": (*histograms, *rankings),
         "rows": rows,
         "clearances": [_clearance_row(point) for point in clearances],
+        "longest": _longest(clearances),
         "clearance_figures": tuple(_clearance_figures(clearances)),
     }
 
@@ -77,6 +80,19 @@ def _clearance_row(point: ClearancePoint) -> tuple[str, ...]:
         significant(point.backlash, 3),
         f"{100.0 * point.binding:.0f}\u202f%",
         significant(point.stiffness, 3),
+    )
+
+
+def _longest(points: Sequence[ClearancePoint]) -> str:
+    """Where gearboxes last longest; empty where hours do not tell the points apart."""
+    known = [(point.hours, point) for point in points if point.hours is not None]
+    most, best = max(known, key=lambda one: one[0], default=(0.0, None))
+    if best is None or not 1.0 <= most < math.inf or all(one == most for one, _ in known):
+        return ""
+    offset, hole = 1e6 * best.equidistant, 1e6 * best.hole_clearance
+    return (
+        f"Those with an offset of {with_unit(offset, 'um')} and a hole clearance of "
+        f"{with_unit(hole, 'um')} last longest, {with_unit(most, 'h', 2)}. "
     )
 
 
@@ -146,9 +162,14 @@ def _histogram(result: ToleranceResult, name: str) -> Figure:
 
 
 def _ranking(result: ToleranceResult, name: str) -> Figure:
-    words = term(name).words
+    words, sensitivity = term(name).words, result.sensitivity
+    widths = (
+        {}
+        if sensitivity is None
+        else dict(zip(GROUPS, sensitivity[name].total_half_width.tolist(), strict=True))
+    )
     ranked = [
-        (group.replace("_", " "), first, max(total, 0.0))
+        (group.replace("_", " "), first, max(total, 0.0), widths[group])
         for group, first, total in result.ranking(name)
     ]
     return bar_chart(
@@ -157,10 +178,11 @@ def _ranking(result: ToleranceResult, name: str) -> Figure:
             f"What the {words} comes from",
             f"Share of the variance by tolerance; {ranked[0][0]} leads.",
             "Total Sobol' index of each tolerance (bar) and its share alone (tick); both are "
-            "estimates that scatter by some per cent.",
+            "estimates, which may leave 0 to 100\u202f%; \u00b1 is half of the 95\u202f% interval "
+            "of the bar.",
         ),
-        [group for group, _, _ in ranked],
-        [total for _, _, total in ranked],
-        [f"{100.0 * total:.0f}\u202f%" for _, _, total in ranked],
-        [first for _, first, _ in ranked],
+        [group for group, *_ in ranked],
+        [total for _, _, total, _ in ranked],
+        [f"{100.0 * total:.0f} \u00b1{100.0 * width:.0f}\u202f%" for _, _, total, width in ranked],
+        [first for _, first, *_ in ranked],
     )

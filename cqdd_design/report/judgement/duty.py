@@ -1,11 +1,31 @@
-"""The duty over time in the report: what a cycle comes to."""
+"""What lasts, in the report: a duty and what its cycle comes to, or the continuous torque."""
 
 from __future__ import annotations
 
-from cqdd_design.design import Design
-from cqdd_design.report.ink.numbers import significant, with_unit
+import math
+
+from cqdd_design.design import Design, Requirements
+from cqdd_design.report.ink.numbers import RPM, significant, with_unit
 
 Row = tuple[str, str, str]
+
+
+def duty_text(asked: Requirements) -> str:
+    """Greatest and r.m.s. torque of the duty; empty without one."""
+    if not asked.load_cases:
+        return ""
+    log = asked.duty_log
+    square = sum(one.share * one.torque**2 for one in asked.load_cases)
+    effective = math.sqrt(square) if log is None else log.figures.torque_rms
+    return (
+        f"{with_unit(asked.lasting_torque, 'N*m')} at most and {with_unit(effective, 'N*m')} r.m.s."
+    )
+
+
+def held_speed_text(asked: Requirements) -> str:
+    """Speed of the input at the continuous torque, and which of the requirements it is."""
+    which = "input" if asked.continuous_speed is None else "continuous"
+    return f"the {which} speed of {with_unit(asked.held_speed * RPM, 'rpm')}"
 
 
 def duty_rows(design: Design) -> tuple[Row, ...]:

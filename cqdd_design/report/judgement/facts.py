@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from cqdd_design.report.ink.numbers import TIMES, millimetres, significant, with_unit
 from cqdd_design.report.input import ReportInput
+from cqdd_design.report.judgement.duty import duty_text
 from cqdd_design.solids.part import overall_size
 from cqdd_design.terms import term
 
@@ -12,12 +13,13 @@ def head_facts(results: ReportInput, least_margin: str) -> tuple[tuple[str, str,
     """Name, value and remark of what a reader wants at a glance."""
     design, reducer, bodies = results.design, results.design.reducer, results.bodies
     asked = design.requirements
+    duty = duty_text(asked)
     facts = [
         ("Ratio", f"{reducer.ratio} : 1", "ring held, output reversed"),
         (
             "Peak torque",
             with_unit(asked.peak_torque, "N*m"),
-            f"{with_unit(asked.continuous_torque, 'N*m')} continuous",
+            f"duty {duty}" if duty else f"{with_unit(asked.continuous_torque, 'N*m')} continuous",
         ),
         (
             "Envelope",

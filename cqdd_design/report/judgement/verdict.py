@@ -10,6 +10,7 @@ from cqdd_design.gearbox import GearboxAnalysis
 from cqdd_design.report.ink.numbers import TIMES, decimals, significant, with_unit
 from cqdd_design.report.ink.page import Values
 from cqdd_design.report.judgement.check_rows import WORDS, check_row, printed, sentence
+from cqdd_design.report.judgement.duty import duty_text
 from cqdd_design.results import Status
 from cqdd_design.verdict import Verdict
 from cqdd_design.verdict.headline import Figure
@@ -33,14 +34,15 @@ def verdict(judged: Verdict, costs: Sequence[str]) -> Values:
     least = next(line for line in (*limits, *judged.lines) if line.known)
     closest = () if judged.meets == "no" else limits
     sizes = ", ".join(line.title[0].lower() + line.title[1:] for line in judged.filled)
-    margin = significant(least.margin, 3)
+    margin, duty = significant(least.margin, 3), duty_text(asked)
+    lasting = f"{with_unit(asked.continuous_torque, 'N*m')} continuous torque."
     apart = ", apart from sizes at their limit" if sizes and least not in judged.filled else ""
     return {
         "status": status,
         "badge": badge,
         "headline": f"{judged.sentence}.",
         "detail": f"Judged at {with_unit(asked.peak_torque, 'N*m')} peak and "
-        f"{with_unit(asked.continuous_torque, 'N*m')} continuous torque. The least margin is "
+        f"{f'over the duty, {duty}' if duty else lasting} The least margin is "
         f"{margin}, in “{least.title[0].lower()}{least.title[1:]}”{apart}.",
         "figures": tuple(_figure(one) for one in judged.headline),
         "rows": tuple(check_row(line) for line in limits if line.status != "pass"),

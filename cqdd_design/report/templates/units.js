@@ -14,23 +14,26 @@
     "N\u00b7m\u00b7s/rad": [8.8507457, "lbf\u00b7in\u00b7s/rad"], "N/\u00b5m": [5.7101471, "lbf/thou"],
     "mN\u00b7m": [0.14161193, "ozf\u00b7in"], "mN\u00b7m\u00b7s/rad": [0.14161193, "ozf\u00b7in\u00b7s/rad"],
     "kg\u00b7cm\u00b2": [0.34171719, "lb\u00b7in\u00b2"], "g\u00b7mm": [0.0013887387, "oz\u00b7in"],
-    "g\u00b7mm\u00b2": [5.4674751e-5, "oz\u00b7in\u00b2"], "kg/dm3": [0.036127292, "lb/in\u00b3"]
+    "g\u00b7mm\u00b2": [5.4674751e-5, "oz\u00b7in\u00b2"], "kg/dm3": [0.036127292, "lb/in\u00b3"],
+    "N m": [8.8507457, "lbf\u00b7in"], "N mm": [0.0088507457, "lbf\u00b7in"]
   };
   var names = Object.keys(UNITS).sort(function (a, b) { return b.length - a.length; });
-  var NUMBER = "[\u2212-]?\\d+(?:\u202f\\d{3})*(?:\\.\\d+)?(?:\u202f\u00d7\u202f10[\u207b\u2070\u00b9\u00b2\u00b3\u2074-\u2079]+)?";
+  var NUMBER = "[\u2212-]?\\d+(?:\u202f\\d{3})*(?:\\.\\d+)?(?:[\u202f ]\u00d7[\u202f ]10[\u207b\u2070\u00b9\u00b2\u00b3\u2074-\u2079]+)?";
   // Numbers before the last may share its unit: sides of a box, "3 of 4 MPa", "from 3 to 4 mm". In
-  // "2 \u00d7 8 mm" and "2 of 4 mm" the first counts pieces.
+  // "2 of 4 mm" the first counts pieces, in "2 \u00d7 8 mm" it is a factor, but for
+  // parts that are named by their sizes.
+  var SIZED = "(?<=(?:needles|ground pin|NdFeB \\w+) )" + NUMBER + " \u00d7 ";
   var PATTERN = new RegExp("(?<![\\w.])(\u2300 ?" + NUMBER + " [\u00d7x] |" + NUMBER + " \u00d7 " + NUMBER +
-    " \u00d7 |" + NUMBER + " (?:\u00d7|x|of|to|\u00b1) ?)?(" + NUMBER + ")[\u202f ](" +
+    " \u00d7 |" + NUMBER + " (?:x|of|to|\u00b1) ?|" + SIZED + "|\u00b1)?(" + NUMBER + ")[\u202f ](" +
     names.join("|").replace(/\//g, "\\/") + ")(?![\\w\u00b7\u00b2\u00b3\u207b]|/[A-Za-z\u00b5])", "g");
   function counts(before, name) {
     var length = /^(mm|\u00b5m|m)$/.test(name);
-    return (/ of $/.test(before) && length) || /^\d+ \u00d7 $/.test(before);
+    return (/ of $/.test(before) && length) || (/ \u00d7 .* \u00d7 $/.test(before) && !length);
   }
   var SUPER = "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079";
 
   function value(text) {
-    var parts = text.replace(MINUS, "-").split(THIN + "\u00d7" + THIN + "10"), power = 0;
+    var parts = text.replace(MINUS, "-").split(/[\u202f ]\u00d7[\u202f ]10/), power = 0;
     if (parts.length > 1) {
       power = Number(parts[1].replace("\u207b", "-").replace(/[^-]/g, function (c) { return SUPER.indexOf(c); }));
     }
@@ -58,13 +61,15 @@
       var first = counts(before || "", name) ? before : before && before.replace(new RegExp(NUMBER, "g"), function (one) {
         return converted(one, unit);
       });
-      return (first || "") + converted(number, unit) + THIN + unit[1];
+      var spread = /\u00b1 ?$/.test(before || "");
+      return (first || "") + converted(number, spread ? unit.slice(0, 2) : unit) + THIN + unit[1];
     });
   }
 
-  // Bare numbers whose unit stands elsewhere: limits, ranges, pairs and values with their spread.
+  // Bare numbers whose unit stands elsewhere: limits, ranges, pairs, values with their spread or
+  // an asterisk.
   var BARE = new RegExp("^(?:[\u2264\u2265<>] ?)?[+\u00b1]?" + NUMBER + "(?:(?: to | / | ?\u00b1)\\+?" + NUMBER +
-    ")*(?:, the design)?$");
+    ")*(?:\\*|, the design)?$");
   function rescaled(text, unit) {
     return text.replace(new RegExp("(\u00b1?)(" + NUMBER + ")", "g"), function (all, spread, number) {
       return spread + converted(number, spread ? unit.slice(0, 2) : unit);
