@@ -90,7 +90,7 @@ def analyse(
     )
     out.say(*analysis_lines(found), "")
     out.say(sentence(loaded.name, found.checks))
-    if not found.toleranced:
+    if not found.toleranced and any(one.status == "fail" for one in found.checks):
         out.say("(`check` draws toleranced gearboxes too)")
     out.warn(*found.warnings)
     out.document(found.to_dict(), design=found.machine.given, checks=found.checks)

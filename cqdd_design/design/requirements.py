@@ -371,12 +371,6 @@ class Requirements(FrozenModel):
                 f"bore {format_quantity(self.bore, LENGTH)} is not within outer_diameter "
                 f"{format_quantity(self.outer_diameter, LENGTH)}; lower it or raise outer_diameter"
             )
-        if self.lost_motion is not None and self.lost_motion < (self.backlash or 0.0):
-            raise ValueError(
-                f"lost_motion {format_quantity(self.lost_motion, SMALL_ANGLE)} is below backlash "
-                f"{format_quantity(self.backlash or 0.0, SMALL_ANGLE)}, which is part of it; "
-                "raise it or lower backlash"
-            )
         if self.duty_file is not None and self.duty:
             raise ValueError("duty and duty_file are both given; keep one of them")
         if self.duty_columns is not None and self.duty_file is None:

@@ -123,7 +123,7 @@ class Result:
         """Whether the design will do, as commands say it, without its name."""
         from cqdd_design.verdict.judge import sentence
 
-        return sentence("", lines).strip() if lines else "not judged"
+        return sentence("", lines).strip(": ") if lines else "not judged"
 
     def _figures(self) -> tuple[str, ...]:
         """A line each: the seven figures where there is a verdict."""

@@ -74,7 +74,8 @@ def looser_figures(hunt: Hunt, refusal: SizingInfeasibleError, search: _Search) 
         nearest = {key: _told(key, shares[key] * most) for key, most in too_much.items()}
         found, _ = search(asked.unchecked_copy(nearest))
         if found is not None:
-            return _told_of(asked, _nearer(asked, nearest, found, too_much, search))
+            figures = _nearer(asked, nearest, found, too_much, search)
+            return Looser(figures, tuple(figures))
     loose = {key: _eased(key, most, _LOOSE) for key, most in too_much.items()}
     found, error = search(asked.unchecked_copy(loose))
     if found is None:
@@ -84,14 +85,8 @@ def looser_figures(hunt: Hunt, refusal: SizingInfeasibleError, search: _Search) 
     found, _ = search(asked.unchecked_copy(fits))
     if found is None:
         return Looser({}, keys)
-    return _told_of(asked, _nearer(asked, fits, found, too_much, search))
-
-
-def _told_of(asked: Requirements, figures: Figures) -> Looser:
-    """Figures, but none with which no file could be read: backlash is part of lost motion."""
-    changed = asked.unchecked_copy(figures)
-    reads = changed.lost_motion is None or changed.lost_motion >= (changed.backlash or 0.0)
-    return Looser(figures if reads else {}, tuple(figures))
+    figures = _nearer(asked, fits, found, too_much, search)
+    return Looser(figures, tuple(figures))
 
 
 def _nearer(

@@ -15,6 +15,7 @@ from typing import NamedTuple
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Requirements
 from cqdd_design.errors import InfeasibleError
+from cqdd_design.machine import Machine
 from cqdd_design.sizing.able import CONTINUOUS, PEAK, first_guess
 from cqdd_design.sizing.bearable import or_weaker
 from cqdd_design.sizing.costs import costs
@@ -44,6 +45,7 @@ from cqdd_design.sizing.sturdiest import strong_and_sound
 from cqdd_design.sizing.trial_gearboxes import drawing_ahead
 from cqdd_design.sizing.turns import cooler_gearbox, next_step, turned
 from cqdd_design.verdict import Verdict, judge
+from cqdd_design.verdict.bore_line import bore_line
 
 _CLOSER, _CLOSER_PINS = 0.96, 6
 """Of a pin circle without a rated carrier bearing, and how often one is tried."""
@@ -215,7 +217,13 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
                     return _verified(hunt, result.result(), judged, requirements)
                 nearest = judged if nearest is None else max(nearest, judged, key=least_margin)
                 if turned(hunt, found, judged):
-                    found = or_weaker(hunt, lambda: lightest(hunt))
+                    other = or_weaker(hunt, lambda: lightest(hunt))
+                    if other is None and hunt.pins == (True,):
+                        # None on needles: of bare pins others may do.
+                        hunt.pins = False, True
+                        if turned(hunt, found, judged):
+                            other = or_weaker(hunt, lambda: lightest(hunt))
+                    found = other
                     continue
                 step = next_step(hunt, found, judged)
                 if step is None:
@@ -332,6 +340,12 @@ def _aside(hunt: Hunt) -> Hunt:
     return replace(hunt, **{name: copy(getattr(hunt, name)) for name in changing})
 
 
+def _lets_through(machine: Machine) -> bool:
+    """Whether the bore that is asked for goes through, where one is."""
+    line = bore_line(replace(machine, stiff=True))
+    return line is None or line.status == "pass"
+
+
 def _result(hunt: Hunt, found: Found, began: float) -> SizingResult:
     """With alternatives in the same ring with any cam bearing, by closed forms and its needs."""
     frame = hunt.frame(found.space._replace(cam=""), found.needs)
@@ -339,6 +353,8 @@ def _result(hunt: Hunt, found: Found, began: float) -> SizingResult:
     search = Search.of(replace(frame, carrier_material=stated), hunt.tables)
     screen, most = search.found, search.most_reserve()
     others = () if most is None else search.alternatives(found.sized, search.at(found.point), most)
+    # Of any cam bearing many leave no way through.
+    others = tuple(one for one in others if _lets_through(one.machine))
     return SizingResult(
         **vars(found.sized),
         alternatives=others,

@@ -7,6 +7,7 @@ from cqdd_design.gearbox.cam_bearing import fitting_bearings, largest_outer_diam
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.gearbox.stages import Stages
 from cqdd_design.geometry.cycloid import CycloidDisc
+from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.results import Check
 
@@ -41,7 +42,7 @@ def _wider(machine: Machine, hole: float) -> str:
     now = machine.layout.pack.cam.bearing.bore_diameter
     valley = CycloidDisc.from_design(design).valley_distance
     room = largest_outer_diameter(design, 2.0 * Stages.from_design(design).hole_radius, valley)
-    most = hole
+    most, by = hole, ""
     for one in sorted(fitting_bearings(design, room), key=lambda one: one.bore_diameter):
         if one.bore_diameter <= now:
             continue
@@ -55,8 +56,12 @@ def _wider(machine: Machine, hole: float) -> str:
                 f"set cam_bearing.designation to '{one.designation}', which leaves a hole of "
                 f"{left:.3g} mm; its own lines are then judged"
             )
-        most = max(most, left)
+        if left > most:
+            most, by = left, f", as '{one.designation}' does"
+    less = "leave out requirements.bore"
+    if hole > 0.0:
+        less = f"lower requirements.bore to {rounded_down(hole):g} mm, which this one leaves"
     return (
-        f"no cam bearing that fits this disc leaves a hole of more than {most:.3g} mm: lower "
-        "requirements.bore to that, or raise ring.outer_diameter and output_pins.circle_radius"
+        f"no cam bearing that fits this disc leaves a hole of more than {most:.3g} mm{by}: {less}, "
+        "or raise ring.outer_diameter and output_pins.circle_radius"
     )

@@ -103,8 +103,15 @@ def bell_line(machine: Machine, warm: MachineTemperatures | None) -> Check:
     )
     ways = [_WIDER]
     if current := held[line.id]:
-        ways.append(f"lower {_CURRENT} to {rounded_down(current):g} A")
+        ways.append(
+            f"lower {_CURRENT} to {rounded_down(current):g} A (and with it what MOTOR-PEAK reaches)"
+        )
     return replace(line, remedy="; or ".join((*ways, "cool it")))
+
+
+def bell_strength(machine: Machine) -> Check:
+    """The line of the bell where temperatures are not known, without what to change."""
+    return _bell(machine, None)
 
 
 def _bell(machine: Machine, warm: MachineTemperatures | None) -> Check:

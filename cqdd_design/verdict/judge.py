@@ -128,10 +128,18 @@ def meets(lines: Iterable[Check]) -> Meets:
 
 
 def sentence(name: str, lines: Iterable[Check]) -> str:
-    """Whether a design meets its requirements, with the number of lines that do not."""
+    """Whether a design meets its requirements, with the number of lines that do not.
+
+    Without `YIELD` among the lines nothing is said to meet them.
+    """
     every = tuple(lines)
     counts = {status: sum(line.status == status for line in every) for status in _TOLD}
     told = [f"{counts[status]} {words}" for status, words in _TOLD.items() if counts[status]]
+    if meets(every) == "yes" and all(line.id != "YIELD" for line in every):
+        return (
+            f"{name}: of {len(every)} lines {', '.join(told)}; YIELD decides too, for which "
+            "`check` draws toleranced gearboxes"
+        )
     answer = {
         "yes": "meets its requirements",
         "no": "does NOT meet its requirements",

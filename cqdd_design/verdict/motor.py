@@ -41,7 +41,7 @@ ALL_PARTS = f"{MODEL}, as far as all parts stand it"
 _RPM = 30.0 / math.pi
 _HALVINGS = 50
 _RAISED = {
-    VOLTAGE: "motor.voltage to about {:g} V",
+    VOLTAGE: "motor.voltage (and requirements.voltage where it is stated) to about {:g} V",
     DRIVER: "motor.current_limit (and requirements.current where it is stated) to about {:g} A",
 }
 """What to raise where it binds."""

@@ -42,6 +42,8 @@ from cqdd_design.machine.shaft_strength import (
 )
 from cqdd_design.results import Check
 from cqdd_design.terms import life_text
+from cqdd_design.verdict.bore_line import bore_line
+from cqdd_design.verdict.joint_lines import bell_strength
 
 _MEGA = 1e6
 _WIDER = "leave room for larger support bearings (a cam bearing with a larger bore)"
@@ -94,10 +96,20 @@ def _other_ends(machine: Machine, peak: PackLoads, duty: PackLoads, rotor: _Roto
     for other in on_stronger_ends(machine):
         with suppress(CatalogError, GeometryError):
             thinner = {line.id for line in _strength(other, peak, duty) if line.status != "pass"}
-            if thinner <= weak and passes(other, _rotor(other)):
+            if thinner <= weak and passes(other, _rotor(other)) and not _looser(other, machine):
                 named = other.seats[0].bearing.designation
                 return f"set support_bearing.designation to '{named}', or {_WIDER}"
     return _WIDER
+
+
+def _looser(other: Machine, machine: Machine) -> bool:
+    """Whether a shaft with other ends loses the rotor's bond, or the way through, that it had."""
+    for line_of in (bell_strength, bore_line):
+        before, after = line_of(machine), line_of(other)
+        had = before is not None and before.status == "pass"
+        if had and (after is None or after.status != "pass"):
+            return True
+    return False
 
 
 def _cured(

@@ -75,7 +75,9 @@ def test_a_speed_above_the_motors_is_a_no_with_what_would_do(cqdd, tmp_path, pap
     (tmp_path / "fast.toml").write_text(text.replace('"1286 rpm"', '"9000 rpm"'))
     check = cqdd("check", "fast.toml")
     assert check.code == 4
-    assert "raise motor.voltage to about" in " ".join(check.out.split())
+    assert "raise motor.voltage (and requirements.voltage where it is stated) to about" in " ".join(
+        check.out.split()
+    )
     assert "does NOT meet its requirements" in check.out
 
 

@@ -210,6 +210,13 @@ def test_a_bore_that_is_too_small_names_the_cam_bearing_that_leaves_it(paper: De
     none = bore_line(resolve(paper.replacing({"requirements.bore": "13 mm"})))
     assert none is not None
     assert "no cam bearing that fits this disc leaves a hole of more than 12 mm" in none.remedy
+    assert "as '6704' does" in none.remedy
+    # What it says to ask for passes as it is.
+    told = re.search(r"lower requirements\.bore to (\S+ mm), which this one leaves", none.remedy)
+    assert told
+    less = bore_line(resolve(paper.replacing({"requirements.bore": told[1]})))
+    assert less is not None
+    assert less.status == "pass"
     most = paper.replacing(
         {"requirements.bore": "12 mm", "reducer.cam_bearing.designation": "6704"}
     )

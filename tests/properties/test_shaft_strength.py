@@ -41,6 +41,7 @@ from cqdd_design.machine.shaft_strength import (
 )
 from cqdd_design.results import Check
 from cqdd_design.solids.proportions import carrier_bearings
+from cqdd_design.verdict.joint_lines import bell_strength
 from cqdd_design.verdict.shaft_lines import shaft_lines
 
 DESIGNS = Path(__file__).resolve().parents[2] / "designs"
@@ -338,6 +339,26 @@ def test_less_torque_lightens_the_discs_part_alone(machine: Machine) -> None:
     told = float(re.search(r"lower the torque to ([0-9.]+) N", strong.remedy)[1])
     # Rounded down, and the equilibrium is not quite in proportion.
     assert 1.0 <= at(told).margin <= 1.03
+
+
+def test_other_ends_are_not_named_where_the_rotor_would_lose_its_bond(
+    machine: Machine, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Stronger bearings on a thinner stub passed, and BELL-JOINT failed."""
+    asked = machine.design.requirements.peak_torque
+    now = next(one for one in shaft_lines(machine) if one.id == "SUPPORT-STATIC")
+    weak = machine.given.replacing({"requirements.peak_torque": 1.2 * now.margin * asked})
+    at = resolve(weak)
+    good = next(one for one in shaft_lines(at) if one.id == "SUPPORT-STATIC")
+    assert good.status == "fail"
+    named = re.search(r"set support_bearing\.designation to '([^']+)'", good.remedy)
+    monkeypatch.setattr("cqdd_design.verdict.shaft_lines._looser", lambda *_: True)
+    none = next(one for one in shaft_lines(resolve(weak)) if one.id == "SUPPORT-STATIC")
+    assert "support_bearing.designation" not in none.remedy
+    if named:
+        monkeypatch.undo()
+        other = at.changed({"reducer.support_bearing.designation": named[1]})
+        assert bell_strength(at).status != "pass" or bell_strength(other).status == "pass"
 
 
 def test_a_rotor_that_is_not_drawn_is_missed_in_words(machine: Machine) -> None:

@@ -128,22 +128,6 @@ def test_what_is_short_with_any_figure_is_told_instead(monkeypatch):
     assert "requirements_that_fit" not in error.to_dict()
 
 
-def test_figures_that_contradict_what_is_asked_are_not_told():
-    """Backlash is part of the lost motion."""
-    hunt = new(backlash="2 arcmin", lost_motion="3 arcmin")
-    limit = 2.0 / ARCMIN
-    short = short_of([build_check("BACKLASH", 4.0 / ARCMIN, limit, "", "")])
-    found = SimpleNamespace(verdict=SimpleNamespace(lines=[]))
-    tried = []
-
-    def search(own):
-        tried.append(own.backlash * ARCMIN)
-        return (found, None) if tried[-1] >= 4.0 - 1e-9 else (None, short)
-
-    assert looser.looser_figures(hunt, short, search) == looser.Looser({}, ("backlash",))
-    assert max(tried) >= 4.0
-
-
 def test_figures_are_told_as_a_file_has_them():
     figures = {"stiffness": 1.32 * ARCMIN, "reflected_inertia": 0.0899, "efficiency": 0.875}
     words = looser.in_words(figures)

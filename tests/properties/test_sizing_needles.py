@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from cqdd_design.catalog.bearings import find_bearing
-from cqdd_design.design import requirements_from_mapping
+from cqdd_design.design import load_design, requirements_from_mapping
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.geometry.runners import pin_runner
 from cqdd_design.machine import resolve
@@ -26,7 +27,7 @@ from cqdd_design.sizing.search import Search
 from cqdd_design.sizing.spaces import FITS, NEEDLE_PINS, spaces
 from cqdd_design.sizing.stage_tables import stage_tables
 from cqdd_design.sizing.turns import _needles_help, next_step, turned
-from cqdd_design.sizing.verified import _again, size_to_verdict
+from cqdd_design.sizing.verified import _again, _lets_through, size_to_verdict
 from cqdd_design.verdict.headline import efficiency
 
 ASKED = {
@@ -277,6 +278,26 @@ def test_what_is_asked_for_beyond_loads_is_searched_for(more, line):
     done = size_to_verdict(asked(**more))
     assert done.verdict.meets == "yes"
     assert next(one for one in done.verdict.lines if one.id == line).status == "pass"
+
+
+@pytest.mark.deep
+def test_where_no_needles_go_bare_pins_are_searched_on():
+    """46 N m were refused, and 45 and 47 were not: the search had gone over to needles for good."""
+    stated = {
+        "peak_torque": "46 N*m",
+        "continuous_torque": "7.9 N*m",
+        "continuous_speed": "300 rpm",
+    }
+    done = size_to_verdict(requirements_from_mapping({"ratio": 10, **stated}))
+    assert done.verdict.meets == "yes"
+
+
+def test_an_alternative_that_leaves_no_bore_is_none():
+    """One was offered that leaves 6.7 of 14 mm, and written by `--pick`."""
+    paper = load_design(Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml")
+    assert _lets_through(resolve(paper))
+    assert _lets_through(resolve(paper.replacing({"requirements.bore": "3 mm"})))
+    assert not _lets_through(resolve(paper.replacing({"requirements.bore": "14 mm"})))
 
 
 @pytest.mark.deep
