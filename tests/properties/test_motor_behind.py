@@ -34,7 +34,7 @@ from cqdd_design.solids.features.kinds import Seat
 from cqdd_design.solids.interference import overlap_of, posed_manifold
 from cqdd_design.solids.mesh import DISPLAY, FINE, surface_slack
 from cqdd_design.solids.motor_layout import MotorLayout
-from cqdd_design.solids.motor_rules import undrawn_sizes
+from cqdd_design.solids.motor_rules import bonded_length, undrawn_sizes
 from cqdd_design.solids.tool_access import reaches
 from cqdd_design.verdict.joint_lines import joint_lines
 from cqdd_design.verdict.motor import _bore as bore_lines
@@ -175,7 +175,7 @@ def test_its_joints_are_judged(large: Machine) -> None:
     motor = behind(large)
     (bell,) = (one for one in joint_lines(large, None) if one.id == "BELL-JOINT")
     assert bell.value is not None
-    assert f"over {1e3 * (motor.hub_top - motor.hub_bottom):.3g} mm" in bell.substituted
+    assert f"over {1e3 * bonded_length(motor):.3g} mm" in bell.substituted
     cover = {one.place: one for one in screw_joints(large)}["motor's cover, which carries nothing"]
     assert (cover.count, cover.across) == (6, 0.0)
     (on_stub, in_bell, seat) = bonds(large)[:3]
