@@ -217,13 +217,7 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
                     return _verified(hunt, result.result(), judged, requirements)
                 nearest = judged if nearest is None else max(nearest, judged, key=least_margin)
                 if turned(hunt, found, judged):
-                    other = or_weaker(hunt, lambda: lightest(hunt))
-                    if other is None and hunt.pins == (True,):
-                        # None on needles: of bare pins others may do.
-                        hunt.pins = False, True
-                        if turned(hunt, found, judged):
-                            other = or_weaker(hunt, lambda: lightest(hunt))
-                    found = other
+                    found = _after_turn(hunt, found, judged)
                     continue
                 step = next_step(hunt, found, judged)
                 if step is None:
@@ -240,6 +234,16 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
     if nearest is not None:
         raise refused(nearest)
     raise nothing(hunt) if found is None else unsettled(found)
+
+
+def _after_turn(hunt: Hunt, found: Found, judged: Verdict) -> Found | None:
+    """The design of a hunt that has turned; without any on needles, of bare pins by other ways."""
+    other = or_weaker(hunt, lambda: lightest(hunt))
+    if other is None and hunt.pins == (True,):
+        hunt.pins = False, True
+        if turned(hunt, found, judged):
+            other = or_weaker(hunt, lambda: lightest(hunt))
+    return other
 
 
 def _less_of_it(hunt: Hunt, found: Found, trial: int) -> Found | None:

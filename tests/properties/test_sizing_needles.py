@@ -27,7 +27,7 @@ from cqdd_design.sizing.search import Search
 from cqdd_design.sizing.spaces import FITS, NEEDLE_PINS, spaces
 from cqdd_design.sizing.stage_tables import stage_tables
 from cqdd_design.sizing.turns import _needles_help, next_step, turned
-from cqdd_design.sizing.verified import _again, _lets_through, size_to_verdict
+from cqdd_design.sizing.verified import _after_turn, _again, _lets_through, size_to_verdict
 from cqdd_design.verdict.headline import efficiency
 
 ASKED = {
@@ -200,6 +200,19 @@ def test_bare_pins_come_back_where_needles_leave_nothing(found):
     assert not again.space.needles
 
 
+def test_a_search_that_turned_to_needles_goes_on_without_them(found):
+    """At ratio 10, 46 N m with 7.9 for ever were refused, and 45 and 47 were not."""
+    hot = hunt(asked(length="13 mm"), pins=(True,))
+    short = Judged(Line("MOTOR-CONTINUOUS", 0.95))
+    other = _after_turn(hot, found, short)
+    assert other is not None
+    assert not other.space.needles
+    assert (hot.pins, hot.goal) == ((False, True), "efficiency")
+    # Where no way is left there is none.
+    hot.pins = (True,)
+    assert _after_turn(hot, found, short) is None
+
+
 def test_both_kinds_are_tried_where_asked():
     kinds = [one.needles for one in spaces(asked(), FITS[0], (False, True))]
     assert kinds == [False, True]
@@ -278,18 +291,6 @@ def test_what_is_asked_for_beyond_loads_is_searched_for(more, line):
     done = size_to_verdict(asked(**more))
     assert done.verdict.meets == "yes"
     assert next(one for one in done.verdict.lines if one.id == line).status == "pass"
-
-
-@pytest.mark.deep
-def test_where_no_needles_go_bare_pins_are_searched_on():
-    """46 N m were refused, and 45 and 47 were not: the search had gone over to needles for good."""
-    stated = {
-        "peak_torque": "46 N*m",
-        "continuous_torque": "7.9 N*m",
-        "continuous_speed": "300 rpm",
-    }
-    done = size_to_verdict(requirements_from_mapping({"ratio": 10, **stated}))
-    assert done.verdict.meets == "yes"
 
 
 def test_an_alternative_that_leaves_no_bore_is_none():
