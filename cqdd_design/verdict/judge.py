@@ -137,8 +137,8 @@ def sentence(name: str, lines: Iterable[Check]) -> str:
     told = [f"{counts[status]} {words}" for status, words in _TOLD.items() if counts[status]]
     if meets(every) == "yes" and all(line.id != "YIELD" for line in every):
         return (
-            f"{name}: of {len(every)} lines {', '.join(told)}; YIELD decides too, for which "
-            "`check` draws toleranced gearboxes"
+            f"{name}: of {len(every)} lines {', '.join(told)}; YIELD is open, `check` draws its "
+            "gearboxes"
         )
     answer = {
         "yes": "meets its requirements",

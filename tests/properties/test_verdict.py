@@ -478,7 +478,7 @@ def test_yes_needs_every_line_known_and_none_that_fails(judged: Verdict) -> None
     )
     share = replace(line, id="YIELD")
     assert sentence("knee", (line, share)) == "knee meets its requirements: of 2 lines 2 pass"
-    assert sentence("knee", (line,)).startswith("knee: of 1 lines 1 pass; YIELD decides too")
+    assert sentence("knee", (line,)).startswith("knee: of 1 lines 1 pass; YIELD is open")
     assert unknown.to_dict()["value"] is None
     assert unknown.to_dict()["margin"] is None
 
