@@ -72,7 +72,7 @@ def analyse(
     from cqdd_design.roads.analyse import analyse as analysed
     from cqdd_design.roads.analyse import asks_of_gearboxes
     from cqdd_design.units import SPEED, TEMPERATURE, TORQUE
-    from cqdd_design.verdict.judge import sentence
+    from cqdd_design.verdict.judge import meets, sentence
 
     asked_torque = parse_option("--torque", torque, TORQUE)
     parts_at = parse_option("--temperature", temperature, TEMPERATURE)
@@ -90,7 +90,7 @@ def analyse(
     )
     out.say(*analysis_lines(found), "")
     out.say(sentence(loaded.name, found.checks))
-    if not found.toleranced and any(one.status == "fail" for one in found.checks):
+    if not found.toleranced and meets(found.checks) != "yes":
         out.say("(`check` draws toleranced gearboxes too)")
     out.warn(*found.warnings)
     out.document(found.to_dict(), design=found.machine.given, checks=found.checks)

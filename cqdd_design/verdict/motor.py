@@ -228,9 +228,7 @@ def lasting_speed_of(asked: Requirements) -> float:
 
     Under a duty its mean, unless a continuous speed is stated.
     """
-    if asked.continuous_speed is None and asked.load_cases:
-        return asked.ratio * sum(one.share * abs(one.speed) for one in asked.load_cases)
-    return asked.held_speed
+    return asked.equal_speed if asked.continuous_speed is None else asked.continuous_speed
 
 
 def held_up_to(actuator: ActuatorParameters, asked: Requirements) -> float:

@@ -45,6 +45,8 @@ class Coupon:
     Attributes
     ----------
     part : Part
+    label : str
+        At the end of its files' names.
     length : float
         Of the plate along x, m: measured, it gives the shrinkage.
     sizes : tuple of float
@@ -54,6 +56,7 @@ class Coupon:
     """
 
     part: Part
+    label: str
     length: float
     sizes: tuple[float, ...]
     left_out: tuple[float, ...]
@@ -81,7 +84,7 @@ def coupon_sizes(parts: Iterable[Part]) -> tuple[tuple[float, ...], tuple[float,
     return chosen, tuple(one for one in every if one not in chosen)
 
 
-def coupon(parts: Iterable[Part], material: str) -> Coupon | None:
+def coupon(parts: Iterable[Part], material: str, label: str = "coupon") -> Coupon | None:
     """The coupon of printed parts of one material; None where they have no fit that goes on one."""
     sizes, left_out = coupon_sizes(parts)
     if not sizes:
@@ -119,4 +122,4 @@ def coupon(parts: Iterable[Part], material: str) -> Coupon | None:
         "printed, to be measured",
         on_axis("test coupon", HOUSING),
     )
-    return Coupon(part, length, sizes, left_out)
+    return Coupon(part, label, length, sizes, left_out)

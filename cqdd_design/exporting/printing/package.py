@@ -55,10 +55,8 @@ def export_print(job: ExportJob) -> tuple[WrittenFile, ...]:
         piece = replace(one.made, instances=on_axis(one.made.name, HOUSING))
         files += _files(job, piece, file_label(piece.name), stl=True)
     tests = coupons_of(every)
-    several = len({one.material.material for one in every}) > 1
     for test in tests:
-        label = f"coupon-{file_label(test.part.material)}" if several else "coupon"
-        files += _files(job, test.part, label, stl=False)
+        files += _files(job, test.part, test.label, stl=False)
     readme = job.folder / FOLDER / "README.txt"
     text = readme_text(job.design, every, tests)
     return (*files, write_atomically(readme, text, "print"))
@@ -137,10 +135,11 @@ def _measured(design: Design, names: Sequence[str]) -> dict[str, PrintedErrors]:
 def coupons_of(every: Sequence[PrintedPart]) -> tuple[Coupon, ...]:
     """A coupon of every plastic that has a fit for one, that of most parts first."""
     names = [one.material.material for one in every]
-    tests = [
-        coupon([one.drawn for one in every if one.material.material == name], name)
-        for name in sorted(set(names), key=lambda name: (-names.count(name), names.index(name)))
-    ]
+    tests = []
+    for name in sorted(set(names), key=lambda name: (-names.count(name), names.index(name))):
+        parts = [one.drawn for one in every if one.material.material == name]
+        label = f"coupon-{file_label(name)}" if len(parts) < len(names) else "coupon"
+        tests.append(coupon(parts, name, label))
     return tuple(one for one in tests if one is not None)
 
 

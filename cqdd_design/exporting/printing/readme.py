@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from cqdd_design.catalog import find_material
-from cqdd_design.files import ascii_text, file_label
+from cqdd_design.files import ascii_text
 from cqdd_design.solids.features.kinds import fit_label
 from cqdd_design.version import __version__
 
@@ -96,11 +96,10 @@ def _part(one: PrintedPart) -> Iterator[str]:
 
 def _coupon(design: Design, test: Coupon, *, several: bool) -> Iterator[str]:
     material = test.part.material
-    label = f"coupon-{file_label(material)}" if several else "coupon"
     sizes = ", ".join(f"{_MM * size:g}" for size in test.sizes)
     yield from _wrapped(
-        f"{design.file_name}-{label}.step and .3mf hold bores and pins of {sizes} mm, each in a "
-        "row: the number at the left is the nominal diameter, those below are by how many "
+        f"{design.file_name}-{test.label}.step and .3mf hold bores and pins of {sizes} mm, each in "
+        "a row: the number at the left is the nominal diameter, those below are by how many "
         "hundredths of a millimetre each is drawn larger. Nothing in it is compensated. Print it "
         f"as the parts of {material} will be, same layers and speed, and let it cool.",
     )

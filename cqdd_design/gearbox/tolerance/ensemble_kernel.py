@@ -143,33 +143,38 @@ def _rigid_parts(nominal: Nominal, found: Toleranced, errors: GearboxErrors) -> 
 
 
 @part()
-def _greatest(
+def _loaded(
     nominal: Nominal,
     found: Toleranced,
     springs: Springs,
     load: Load,
     start: Start,
     shared: Shared,
-    whole: YieldingResult,
-    values: Any,
+    some: Any,
+    result: YieldingResult,
 ) -> int:
-    """Equilibria under the torque into `whole`, their greatest loads; -1, or a failing angle."""
-    count, discs, _ = nominal.gaps.shape
-    teeth, every = springs.teeth, np.arange(count)
-    stopped = follow(
-        nominal,
-        found,
-        springs,
-        load,
-        shared.rubbing,
-        shared.compliance,
-        (every, turns_between(nominal, every)),
-        room(0, discs, springs.teeth),
-        start.perfect,
-        whole,
+    """Equilibria under the torque at `some` angles into `result`; -1, or a failing angle."""
+    discs, contacts = nominal.gaps.shape[1:]
+    return int(
+        follow(
+            nominal,
+            found,
+            springs,
+            load,
+            shared.rubbing,
+            shared.compliance,
+            (some, turns_between(nominal, some)),
+            room(0, discs, contacts),
+            start.perfect,
+            result,
+        )
     )
-    if stopped >= 0:
-        return int(stopped)
+
+
+@part()
+def _greatest(teeth: int, shared: Shared, whole: YieldingResult, values: Any) -> None:
+    """Greatest loads of the equilibria under the torque."""
+    count, discs, _ = whole.force.shape
     most, pressed, borne = 0.0, 0.0, 0.0
     for a in range(count):
         for d in range(discs):
@@ -182,7 +187,6 @@ def _greatest(
     values[RING_FORCE] = most
     values[PRESSURE] = math.sqrt(pressed)
     values[CAM_LOAD] = math.sqrt(borne)
-    return -1
 
 
 @part()
@@ -208,34 +212,6 @@ def _swing(
         whole,
     )
     values[RIPPLE] = torques.max() - torques.min()
-
-
-@part()
-def _turns(
-    nominal: Nominal,
-    found: Toleranced,
-    springs: Springs,
-    load: Load,
-    start: Start,
-    shared: Shared,
-) -> int:
-    """Whether the marked angles have equilibria under the torque; -1, or a failing angle."""
-    discs, contacts = nominal.gaps.shape[1:]
-    some = np.flatnonzero(start.marked)
-    return int(
-        follow(
-            nominal,
-            found,
-            springs,
-            load,
-            shared.rubbing,
-            shared.compliance,
-            (some, turns_between(nominal, some)),
-            room(0, discs, contacts),
-            start.perfect,
-            room(some.size, discs, contacts),
-        )
-    )
 
 
 @part()
@@ -392,20 +368,22 @@ def solve_gearbox(
     int
         -1, or the angle that has no equilibrium.
     """
-    found = _with_errors(nominal, errors)
-    if asked == FREEDOM_ALONE:
-        stopped = _turns(nominal, found, springs, load, start, shared)
-    else:
-        whole = room(*nominal.gaps.shape)
-        stopped = _greatest(nominal, found, springs, load, start, shared, whole, values)
-        if stopped >= 0 or asked == LOADS_ALONE:
-            return stopped
-        _swing(nominal, found, shared, springs.teeth, whole, values)
-        if asked == EVERYTHING:
-            stopped = _windup(nominal, found, springs, load, start, shared, whole, values)
+    found, some = _with_errors(nominal, errors), np.flatnonzero(start.marked)
+    count, discs, contacts = nominal.gaps.shape
+    solved = some if asked == FREEDOM_ALONE else np.arange(count)
+    whole = room(solved.size, discs, contacts)
+    stopped = _loaded(nominal, found, springs, load, start, shared, solved, whole)
     if stopped >= 0:
         return stopped
-    some = np.flatnonzero(start.marked)
+    if asked != FREEDOM_ALONE:
+        _greatest(springs.teeth, shared, whole, values)
+        if asked == LOADS_ALONE:
+            return -1
+        _swing(nominal, found, shared, springs.teeth, whole, values)
+    if asked == EVERYTHING:
+        stopped = _windup(nominal, found, springs, load, start, shared, whole, values)
+        if stopped >= 0:
+            return stopped
     tight = np.zeros(some.size, dtype=np.bool_)
     stopped = _free(nominal, found, start, errors, tight, values)
     if stopped >= 0 or asked == RANKED_ALONE:

@@ -28,14 +28,14 @@ def lasting_pressure(design: Design) -> float:
 
     Every point of a flank is met n + 1 times an output turn. Under a duty it is that at the torque
     which stands for it; those at its other torques are as much more as of perfect parts. 0 where
-    the catalogue knows no limit.
+    the catalogue knows no limit, or nothing turns under load.
     """
     limit = _pressure_limit(design)
     hours, (met, shares) = design.requirements.life_hours, _duty(design)
+    if limit <= 0.0 or not met.any():
+        return 0.0
     if len(met) == 1:
         return limit * float(contact_cycle_factor(hours * met[0]))
-    if limit <= 0.0 or not met.any():
-        return limit
 
     def lacking(log: float) -> float:
         return math.log(hours * _worn_per_hour(limit, limit * math.exp(log), met, shares))
@@ -108,8 +108,8 @@ def _pressure_limit(design: Design) -> float:
 def limits(design: Design) -> dict[str, float]:
     """Limits by output, of those that have one; more is worse for all of them.
 
-    Pressure and cam load are those that last the required hours at the mean speed; where a duty
-    only stands there is none for the cam.
+    Pressure and cam load are those that last the required hours at the mean speed; a duty that only
+    stands has none.
     """
     asked = design.requirements
     found = {"unloaded_torque_Nm": allowables.BINDING_SHARE * asked.continuous_torque}

@@ -163,11 +163,8 @@ def _histogram(result: ToleranceResult, name: str) -> Figure:
 
 def _ranking(result: ToleranceResult, name: str) -> Figure:
     words, sensitivity = term(name).words, result.sensitivity
-    widths = (
-        {}
-        if sensitivity is None
-        else dict(zip(GROUPS, sensitivity[name].total_half_width.tolist(), strict=True))
-    )
+    assert sensitivity is not None, "there is nothing to rank"
+    widths = dict(zip(GROUPS, sensitivity[name].total_half_width.tolist(), strict=True))
     ranked = [
         (group.replace("_", " "), first, max(total, 0.0), widths[group])
         for group, first, total in result.ranking(name)
