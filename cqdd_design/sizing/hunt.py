@@ -103,6 +103,11 @@ class Hunt:
         where none has been.
     any_will_do : bool
         Whether the first design whose verdict is yes is enough, the best or not.
+    hoped : float
+        Objective of the first design that the equilibrium bore out, before part errors and heat
+        were asked.
+    lighter_than : float
+        Mass from which on a design is not what is searched for, of the parts that are counted, kg.
     best_alone : bool
         Whether nothing but the best is searched for: any design, and the strongest, were in vain.
     in_vain : list of Requirements
@@ -151,6 +156,8 @@ class Hunt:
         shaft in it is thick enough for a bond that gave way.
     pins : tuple of bool
         Whether output pins that are tried are on needles.
+    too_warm : set of str
+        Cam bearings that are not tried, as the best with them loses too much.
     tried : set of Goal
         Goals that were taken to meet something that is asked for, and those left for them.
     sturdier : float
@@ -194,6 +201,8 @@ class Hunt:
     relented: int = 0
     trusting: bool = False
     any_will_do: bool = False
+    hoped: float = 0.0
+    lighter_than: float = math.inf
     best_alone: bool = False
     in_vain: list[Requirements] = field(default_factory=list)
     short_of: tuple[Check, ...] = ()
@@ -214,6 +223,7 @@ class Hunt:
     most_throw: float = math.inf
     thicker: tuple[float, float] | None = None
     pins: tuple[bool, ...] = (False,)
+    too_warm: set[str] = field(default_factory=set)
     tried: set[Goal] = field(default_factory=set)
     sturdier: float = 1.0
     held_up_to: float = 0.0
@@ -366,6 +376,7 @@ class Hunt:
             for one in frame.bearings
             if one.bore_diameter >= max(self.least_bore, asked.bore or 0.0)
             and space.cam in {"", one.designation}
+            and one.designation not in self.too_warm
         )
         if not bearings:
             raise InfeasibleError(_no_bearing(asked))

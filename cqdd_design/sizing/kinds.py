@@ -239,8 +239,11 @@ def _bears(hunt: Hunt, found: Found) -> float:
 def _is_too_weak(hunt: Hunt, kind: _Kind) -> bool:
     """Whether a bearing as wide at least was found to leave far too thin a shaft.
 
-    Or one like it and a little wider, far too small bearings at the shaft's ends.
+    Or one like it and a little wider, far too small bearings at the shaft's ends. But not where a
+    design of the kind was found whose shaft is sound.
     """
+    if key_of(kind.space) in hunt.known:
+        return False
     peak, own = hunt.requirements.peak_torque, kind.space.disc_count
     return any(
         count == own and kind.bore <= bore and peak > most

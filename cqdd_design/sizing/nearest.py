@@ -31,6 +31,7 @@ from cqdd_design.sizing.motor_reach import PEAK_LINE, MotorShortError
 from cqdd_design.sizing.motors import lacking
 from cqdd_design.sizing.ratios import other_ratio
 from cqdd_design.sizing.refusals import FIGURES
+from cqdd_design.sizing.rivals import or_better
 from cqdd_design.sizing.slower import less_speed
 from cqdd_design.sizing.stage_tables import stage_tables
 from cqdd_design.sizing.torque_steps import (
@@ -129,11 +130,12 @@ def size_or_nearest(
     _refuse_unknown(hunt.motor_row)
     asked = hunt.requirements
     try:
-        return searched(hunt, requirements)
+        found = searched(hunt, requirements)
     except SizingInfeasibleError as refusal:
         _let_go(refusal)
         began = replace(hunt, requirements=asked, goal=goal)
         raise _with_ways(refusal, _without_designs(began)) from refusal
+    return or_better(hunt, found, requirements, goal)
 
 
 def _refuse_unknown(motor: Motor) -> None:

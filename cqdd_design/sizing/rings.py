@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from cqdd_design.errors import InfeasibleError
+from cqdd_design.sizing.able import PEAK
 from cqdd_design.sizing.agreement import settled
 from cqdd_design.sizing.hunt import CAM, Hunt
 from cqdd_design.sizing.known import key_of, near_by, note
@@ -28,6 +29,8 @@ _MAY_WIN = 1.06
 NOT_FAR, _WIDER, _LESS_THROW, _SPARE = 0.4, (1.01, 1.02, 1.04), (0.97, 0.9), 1.01
 """From which margin of the shaft's lines wider rings and less eccentricity are tried, how much
 wider and less, and how much less load on the cam bearing than the margin says."""
+_FAR = 0.3
+"""That margin where a peak torque was stated, and is not lowered instead."""
 FAR_SHORT = 0.6
 """Margin of bearings at a shaft's ends below which rings that are a little wider do not help."""
 
@@ -70,7 +73,8 @@ class Rings:
         if found is None or not found.weak:
             return found
         margin = min(line.margin if line.known else 0.0 for line in found.weak)
-        if margin < NOT_FAR:
+        far = NOT_FAR if PEAK in self._hunt.requirements.derived else _FAR
+        if margin < far:
             return found
         return min(self._stronger(found, margin), key=lambda one: one.worth, default=found)
 

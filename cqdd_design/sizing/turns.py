@@ -10,7 +10,7 @@ from cqdd_design.sizing.able import CONTINUOUS, PEAK, cooler
 from cqdd_design.sizing.bearable import JUST, weaker
 from cqdd_design.sizing.frame import Goal
 from cqdd_design.sizing.hunt import Hunt
-from cqdd_design.sizing.kinds import promising
+from cqdd_design.sizing.kinds import lightest, promising
 from cqdd_design.sizing.looks import HOT, clearance_needed, motor_far_short, read_spread
 from cqdd_design.sizing.refusals import short_of
 from cqdd_design.sizing.shafts import BONDS, SHAFT, stronger_shaft
@@ -20,6 +20,8 @@ from cqdd_design.verdict import Verdict
 _BY_FRICTION = {"EFFICIENCY", "MOTOR-PEAK", "MOTOR-CONTINUOUS", "THERMAL-RISE"}
 _NEEDLES_BRING = 0.8
 """Least margin of these lines from which needles under the output pins are tried."""
+_MOST_BEARINGS = 2
+"""That lose too much, after which another goal is searched for."""
 _LEAST_SHARE = 0.5
 """Of a peak torque that was not stated, below which no line's shortfall is met by lowering it."""
 _MASS = "MASS"
@@ -136,22 +138,38 @@ def _borne(line: Check) -> float:
     return float(max(min(line.margin**_LIGHTER, _LITTLE_LIGHTER), _LEAST_SHARE))
 
 
-def _needles_help(hunt: Hunt, judged: Verdict) -> bool:
-    """Whether a design with bare pins falls short of what friction takes, and not by far."""
+def _loses_little_too_much(hunt: Hunt, judged: Verdict) -> bool:
+    """Whether a design falls short of what friction takes alone, and not by far."""
     short = [line for line in judged.lines if line.status in {"fail", "unknown"}]
     if any(line.id == HOT for line in short):
         # What parts at their limit hold hangs on little; how warm they are says how near it is.
         short = [line for line in short if line.id != "MOTOR-CONTINUOUS"]
-    return (
-        True not in hunt.pins
-        and hunt.may_roll
-        # Where less torque may be asked for, that comes first.
-        and not hunt.requirements.derived
-        and all(
-            line.known and line.id in _BY_FRICTION and line.margin >= _NEEDLES_BRING
-            for line in short
-        )
+    # Where less torque may be asked for, that comes first.
+    return not hunt.requirements.derived and all(
+        line.known and line.id in _BY_FRICTION and line.margin >= _NEEDLES_BRING for line in short
     )
+
+
+def _needles_help(hunt: Hunt, judged: Verdict) -> bool:
+    """Whether a design with bare pins loses a little too much."""
+    return True not in hunt.pins and hunt.may_roll and _loses_little_too_much(hunt, judged)
+
+
+def with_another_bearing(hunt: Hunt, found: Found, judged: Verdict) -> Found | None:
+    """The best design with other cam bearings than those that lose a little too much; or None.
+
+    What one with another bearing loses differs by more than a tenth, while the search knows masses
+    alone; each search for another goal, or with needles, makes it heavier by far.
+    """
+    if hunt.goal == _COOL or not _loses_little_too_much(hunt, judged):
+        return None
+    hunt.too_warm.add(found.cam)
+    other = None if len(hunt.too_warm) > _MOST_BEARINGS else lightest(hunt)
+    if other is None or other.weak:
+        hunt.too_warm.clear()
+        return None
+    hunt.say("searching with other cam bearings, for a gearbox that loses less")
+    return other
 
 
 def turned(hunt: Hunt, found: Found, judged: Verdict) -> bool:

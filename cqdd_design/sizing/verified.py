@@ -6,19 +6,18 @@ with few gearboxes first, and choose clearances and reserves; then the whole ver
 
 from __future__ import annotations
 
+import math
 import time
 from concurrent.futures import ThreadPoolExecutor
 from copy import copy
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Requirements
 from cqdd_design.errors import InfeasibleError
-from cqdd_design.machine import Machine
 from cqdd_design.sizing.able import CONTINUOUS, PEAK, first_guess
 from cqdd_design.sizing.bearable import or_weaker
-from cqdd_design.sizing.costs import costs
 from cqdd_design.sizing.eased import LITTLE, MUCH, eased, given
 from cqdd_design.sizing.frame import Fit, Goal
 from cqdd_design.sizing.hunt import Hunt, Progress
@@ -33,19 +32,18 @@ from cqdd_design.sizing.looks import (
     take,
 )
 from cqdd_design.sizing.motor_reach import refuse_weak_motor
+from cqdd_design.sizing.outcome import result_of
 from cqdd_design.sizing.plates import with_sound_plate
 from cqdd_design.sizing.refusals import TRIALS, least_margin, nothing, refused, unsettled
 from cqdd_design.sizing.result import SizingResult
 from cqdd_design.sizing.rings import finer
-from cqdd_design.sizing.search import Search
 from cqdd_design.sizing.shafts import stronger_shaft, turn_to_less_throw
 from cqdd_design.sizing.spaces import Found, closer
 from cqdd_design.sizing.stage_tables import stage_tables
 from cqdd_design.sizing.sturdiest import strong_and_sound
 from cqdd_design.sizing.trial_gearboxes import drawing_ahead
-from cqdd_design.sizing.turns import cooler_gearbox, next_step, turned
+from cqdd_design.sizing.turns import cooler_gearbox, next_step, turned, with_another_bearing
 from cqdd_design.verdict import Verdict, judge
-from cqdd_design.verdict.bore_line import bore_line
 
 _CLOSER, _CLOSER_PINS = 0.96, 6
 """Of a pin circle without a rated carrier bearing, and how often one is tried."""
@@ -71,11 +69,14 @@ class VerifiedDesign:
         On the design: yes.
     derived : frozenset of str
         Requirements that were not stated and are what the motor can do.
+    found : Found
+        The design where the search had it.
     """
 
     sizing: SizingResult
     verdict: Verdict
     derived: frozenset[str]
+    found: Found = field(compare=False, repr=False)
 
 
 def size_to_verdict(
@@ -151,7 +152,8 @@ def searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
         strong = strong_and_sound(hunt)
         if strong is None:
             raise
-        return _verified(hunt, _result(hunt, strong[0], began), strong[1], requirements)
+        found, verdict = strong
+        return verified(hunt, found, result_of(hunt, found, began), verdict, requirements)
 
 
 def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
@@ -160,6 +162,7 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
         hunt.pins = False, True
     progress("searching by closed forms, held against the contact equilibrium")
     found = or_weaker(hunt, lambda: promising(hunt))
+    hunt.hoped = hunt.hoped or (math.inf if found is None else found.sized.objective.score)
     if found is not None and (far := motor_far_short(hunt, found.sized.machine)):
         found = cooler_gearbox(hunt, far)
     nearest: Verdict | None = None
@@ -168,7 +171,7 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
     for trial in range(_FEW if hunt.any_will_do and not requirements.derived else TRIALS):
         hunt.settling = trial >= _PATIENCE
         found = None if found is None else _with_rated_bearing(hunt, found)
-        if found is None:
+        if found is None or _too_heavy(hunt, found):
             break
         try:
             if found.weak:
@@ -211,11 +214,15 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
                 progress("judging a design by the whole verdict")
                 # Nearly every design that comes so far is the answer.
                 with ThreadPoolExecutor(1) as beside:
-                    result = beside.submit(_result, _aside(hunt), found, began)
+                    result = beside.submit(result_of, _aside(hunt), found, began)
                     judged = judge(found.sized.machine)
                 if judged.meets == "yes":
-                    return _verified(hunt, result.result(), judged, requirements)
+                    return verified(hunt, found, result.result(), judged, requirements)
                 nearest = judged if nearest is None else max(nearest, judged, key=least_margin)
+                other = with_another_bearing(hunt, found, judged)
+                if other is not None:
+                    found = other
+                    continue
                 if turned(hunt, found, judged):
                     found = _after_turn(hunt, found, judged)
                     continue
@@ -268,6 +275,12 @@ class _Sound(NamedTuple):
     found: Found
     requirements: Requirements
     fit: Fit
+
+
+def _too_heavy(hunt: Hunt, found: Found) -> bool:
+    """Whether another design, which is there, is no heavier."""
+    known = math.isfinite(hunt.lighter_than)
+    return known and found.sized.objective.mass >= hunt.lighter_than
 
 
 def _may_go_back(hunt: Hunt, sound: _Sound | None) -> bool:
@@ -331,40 +344,15 @@ def _with_rated_bearing(hunt: Hunt, found: Found) -> Found:
     return found
 
 
-def _verified(
-    hunt: Hunt, sizing: SizingResult, verdict: Verdict, asked: Requirements
+def verified(
+    hunt: Hunt, found: Found, sizing: SizingResult, verdict: Verdict, asked: Requirements
 ) -> VerifiedDesign:
+    """A design whose verdict is yes, for the requirements that were stated."""
     added = hunt.requirements.model_fields_set - asked.model_fields_set
-    return VerifiedDesign(sizing, verdict, asked.derived | added)
+    return VerifiedDesign(sizing, verdict, asked.derived | added, found)
 
 
 def _aside(hunt: Hunt) -> Hunt:
     """A hunt that knows as much, and teaches this one nothing."""
     changing = [name for name, one in vars(hunt).items() if isinstance(one, dict | list | set)]
     return replace(hunt, **{name: copy(getattr(hunt, name)) for name in changing})
-
-
-def _lets_through(machine: Machine) -> bool:
-    """Whether the bore that is asked for goes through, where one is."""
-    line = bore_line(replace(machine, stiff=True))
-    return line is None or line.status == "pass"
-
-
-def _result(hunt: Hunt, found: Found, began: float) -> SizingResult:
-    """With alternatives in the same ring with any cam bearing, by closed forms and its needs."""
-    frame = hunt.frame(found.space._replace(cam=""), found.needs)
-    stated = found.sized.design.reducer.carrier.material
-    search = Search.of(replace(frame, carrier_material=stated), hunt.tables)
-    screen, most = search.found, search.most_reserve()
-    others = () if most is None else search.alternatives(found.sized, search.at(found.point), most)
-    # Of any cam bearing many leave no way through.
-    others = tuple(one for one in others if _lets_through(one.machine))
-    return SizingResult(
-        **vars(found.sized),
-        alternatives=others,
-        candidates_screened=screen.screened,
-        survivors=screen.survivors,
-        rejected=screen.rejected,
-        costs=costs(hunt, found),
-        seconds=time.perf_counter() - began,
-    )

@@ -29,7 +29,7 @@ from cqdd_design.sizing.kinds import (
     lightest,
     ranked,
 )
-from cqdd_design.sizing.known import answered, least_of, note
+from cqdd_design.sizing.known import answered, key_of, least_of, note
 from cqdd_design.sizing.looks import _asks_for_a_wider_ring, read_spread
 from cqdd_design.sizing.refine import Starts, climb
 from cqdd_design.sizing.refusals import nothing
@@ -464,6 +464,18 @@ def test_cam_bearings_like_one_with_far_too_weak_ends_are_not_tried() -> None:
     assert not _is_too_weak(hunt, kind(15e-3))
 
 
+def test_a_kind_with_a_sound_shaft_is_not_told_from_another_s() -> None:
+    """At 48 N m the lightest design was left out, for what ended with a wider cam bearing."""
+    hunt = hunt_for(asked(26, 42.9, 8.68, 300.0))
+    space = Space(2, MATERIALS[1], MATERIALS[1], FITS[0], cam="6802")
+    kind = _Kind(space, 15e-3, "ball", 0.2)
+    hunt.ends_bear[2, "ball", 17e-3] = 1.0
+    hunt.too_weak[2, 17e-3] = 1.0
+    assert _is_too_weak(hunt, kind)
+    hunt.known[key_of(space)] = SimpleNamespace()  # type: ignore[assignment]
+    assert not _is_too_weak(hunt, kind)
+
+
 def test_what_is_far_too_weak_at_its_strongest_is_not_searched(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -510,7 +522,9 @@ def test_any_design_is_judged_as_it_was_found(monkeypatch: pytest.MonkeyPatch) -
     """No better one is searched for."""
     hunt = hunt_for(asked(10, 30.0, 4.0, 1000.0))
     hunt.any_will_do = True
-    sized = SimpleNamespace(machine=None, design=SimpleNamespace(name="one"))
+    sized = SimpleNamespace(
+        machine=None, design=SimpleNamespace(name="one"), objective=SimpleNamespace(score=0.4)
+    )
     one = SimpleNamespace(weak=(), rated=True, cam="6803", sized=sized)
     answers: dict[str, Any] = {
         "promising": one,
@@ -522,7 +536,7 @@ def test_any_design_is_judged_as_it_was_found(monkeypatch: pytest.MonkeyPatch) -
         "last_look": None,
         "eased": None,
         "judge": SimpleNamespace(meets="yes"),
-        "_result": "with alternatives",
+        "result_of": "with alternatives",
     }
     for name, answer in answers.items():
         monkeypatch.setattr(
@@ -532,7 +546,7 @@ def test_any_design_is_judged_as_it_was_found(monkeypatch: pytest.MonkeyPatch) -
         monkeypatch.setattr(
             "cqdd_design.sizing.verified." + name, lambda *_: pytest.fail("is searched for")
         )
-    assert _searched(hunt, hunt.requirements).sizing == answers["_result"]
+    assert _searched(hunt, hunt.requirements).sizing == answers["result_of"]
 
 
 def test_any_design_is_the_first_that_is_sound(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -715,7 +729,9 @@ def test_clearance_that_is_asked_for_late_is_given_to_the_same_gearbox(
 
     def design(name: str) -> Any:
         sized = SimpleNamespace(
-            objective=SimpleNamespace(goal="mass"), machine=name, design=SimpleNamespace(name=name)
+            objective=SimpleNamespace(goal="mass", score=0.4, mass=0.4),
+            machine=name,
+            design=SimpleNamespace(name=name),
         )
         return SimpleNamespace(
             worth=(False, 0.4), rated=True, weak=(), cam="6803", sized=sized, name=name
@@ -740,8 +756,8 @@ def test_clearance_that_is_asked_for_late_is_given_to_the_same_gearbox(
     monkeypatch.setattr(road + "judge", lambda _: SimpleNamespace(meets="yes"))
     monkeypatch.setattr(road + "with_sound_plate", lambda one: one)
     monkeypatch.setattr(road + "drawing_ahead", lambda _: nullcontext())
-    monkeypatch.setattr(road + "_result", lambda _, found, *more: found)
-    monkeypatch.setattr(road + "_verified", lambda _, found, *more: found)
+    monkeypatch.setattr(road + "result_of", lambda _, found, *more: found)
+    monkeypatch.setattr(road + "verified", lambda _, found, *more: found)
     found: Any = searched(hunt, hunt.requirements)
     assert found is roomier
     assert hunt.fit.hole_clearance > FITS[0].hole_clearance

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -21,13 +22,14 @@ from cqdd_design.sizing.finish import design_of, torque_reserve
 from cqdd_design.sizing.frame import search_frame
 from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.kinds import lightest
+from cqdd_design.sizing.outcome import lets_through
 from cqdd_design.sizing.points import Evaluator, Pins
 from cqdd_design.sizing.reserves import needle_reserves_per_radius, pin_reserves_per_radius
 from cqdd_design.sizing.search import Search
 from cqdd_design.sizing.spaces import FITS, NEEDLE_PINS, spaces
 from cqdd_design.sizing.stage_tables import stage_tables
-from cqdd_design.sizing.turns import _needles_help, next_step, turned
-from cqdd_design.sizing.verified import _after_turn, _again, _lets_through, size_to_verdict
+from cqdd_design.sizing.turns import _needles_help, next_step, turned, with_another_bearing
+from cqdd_design.sizing.verified import _after_turn, _again, size_to_verdict
 from cqdd_design.verdict.headline import efficiency
 
 ASKED = {
@@ -192,6 +194,33 @@ def test_they_are_tried_where_friction_is_what_stands_in_the_way():
     assert _needles_help(hunt(asked(pin_material=NEEDLE_PINS)), Judged(near))
 
 
+def test_other_cam_bearings_are_tried_before_another_goal(monkeypatch, found):
+    """At 46 N m another goal led to 0.45 kg, where another bearing loses less with 0.41."""
+    searched = []
+
+    def lightest_of(hunt):
+        searched.append(set(hunt.too_warm))
+        return SimpleNamespace(weak=()) if len(hunt.too_warm) == 1 else None
+
+    monkeypatch.setattr("cqdd_design.sizing.turns.lightest", lightest_of)
+    hot, free = Judged(Line("THERMAL-RISE", 0.93)), asked()
+    assert with_another_bearing(hunt(free), found, Judged(Line("YIELD", 0.93))) is None
+    assert with_another_bearing(hunt(free.deriving("peak_torque")), found, hot) is None
+    cool = hunt(asked())
+    cool.goal = "efficiency"
+    assert with_another_bearing(cool, found, hot) is None
+    assert not searched
+    own = hunt(asked())
+    assert with_another_bearing(own, found, hot) is not None
+    assert own.too_warm == {found.cam}
+    assert all(one.designation != found.cam for one in own.frame(found.space.anywhere, {}).bearings)
+    # Where no other is left, all are tried for the next goal.
+    other = replace(found, sized=found.sized.remade({"reducer.cam_bearing.designation": "6803"}))
+    assert with_another_bearing(own, other, hot) is None
+    assert own.too_warm == set()
+    assert searched == [{found.cam}, {found.cam, other.cam}]
+
+
 def test_bare_pins_come_back_where_needles_leave_nothing(found):
     # Discs of 6.2 mm are thinner than any cage is wide.
     both = hunt(asked(length="13 mm"), pins=(False, True))
@@ -296,9 +325,9 @@ def test_what_is_asked_for_beyond_loads_is_searched_for(more, line):
 def test_an_alternative_that_leaves_no_bore_is_none():
     """One was offered that leaves 6.7 of 14 mm, and written by `--pick`."""
     paper = load_design(Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml")
-    assert _lets_through(resolve(paper))
-    assert _lets_through(resolve(paper.replacing({"requirements.bore": "3 mm"})))
-    assert not _lets_through(resolve(paper.replacing({"requirements.bore": "14 mm"})))
+    assert lets_through(resolve(paper))
+    assert lets_through(resolve(paper.replacing({"requirements.bore": "3 mm"})))
+    assert not lets_through(resolve(paper.replacing({"requirements.bore": "14 mm"})))
 
 
 @pytest.mark.deep

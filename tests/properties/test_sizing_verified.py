@@ -372,7 +372,11 @@ def test_a_refusal_tells_of_the_judged_design_that_came_nearest(
         weak=(),
         rated=True,
         cam="",
-        sized=SimpleNamespace(machine=None, design=SimpleNamespace(name="sized-10")),
+        sized=SimpleNamespace(
+            machine=None,
+            design=SimpleNamespace(name="sized-10"),
+            objective=SimpleNamespace(score=0.4, mass=0.4),
+        ),
     )
     verdicts = iter([far, near, unknown])
     turns = iter([True, True, False])
@@ -386,8 +390,9 @@ def test_a_refusal_tells_of_the_judged_design_that_came_nearest(
         "look": lambda *_: (None, None),
         "last_look": lambda *_: None,
         "eased": lambda *_: None,
-        "_result": lambda *_: None,
+        "result_of": lambda *_: None,
         "judge": lambda _: next(verdicts),
+        "with_another_bearing": lambda *_: None,
         "turned": lambda *_: next(turns),
         "next_step": lambda *_: None,
     }.items():

@@ -1,0 +1,119 @@
+"""Other ways to a design that was found: what they lead to may be the better one.
+
+What part errors and heat ask for hangs on the designs that are looked at, and one search keeps what
+it has learnt of a cam bearing for the designs with it that come after. So where a search ends far
+from what it began with, or with another goal, others begin anew: for the least play or the smallest
+pack, which lead to sturdy designs, or for the first that is sound. What they find is held against
+the one that there is by what the whole verdict says of both.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Iterator
+from dataclasses import replace
+
+from cqdd_design.design import Requirements
+from cqdd_design.errors import InfeasibleError
+from cqdd_design.sizing.able import CONTINUOUS, PEAK
+from cqdd_design.sizing.eased import given
+from cqdd_design.sizing.frame import Goal
+from cqdd_design.sizing.goals import untied
+from cqdd_design.sizing.hunt import Hunt
+from cqdd_design.sizing.outcome import result_of
+from cqdd_design.sizing.plates import with_sound_plate
+from cqdd_design.sizing.spaces import Found
+from cqdd_design.sizing.verified import VerifiedDesign, new_hunt, searched, verified
+from cqdd_design.verdict import Verdict, judge
+
+_FAR = 1.25
+"""Objective over that of the first design of a search from which others are searched for."""
+_STURDY: tuple[Goal, ...] = ("backlash", "size")
+_BETTER = 0.995
+"""Of the figure of the design that was found, from which another takes its place."""
+
+
+def or_better(
+    hunt: Hunt, first: VerifiedDesign, requirements: Requirements, goal: Goal
+) -> VerifiedDesign:
+    """The design of a search, or a better one that another way leads to.
+
+    Parameters
+    ----------
+    hunt : Hunt
+        That the search began with.
+    requirements : Requirements
+        That were stated. Where no peak torque was, there is nothing to hold designs against: each
+        search would end with a torque of its own.
+    goal : Goal
+        What was to be made small.
+    """
+    if PEAK in first.derived or not _may_be_better(hunt, first, goal):
+        return first
+    hunt.say("searching by other ways too, for what is better by the whole verdict")
+    asked = requirements
+    if CONTINUOUS in first.derived:
+        # No rival is to hold less for ever than the first.
+        lasting = first.sizing.design.requirements.continuous_torque
+        asked = asked.unchecked_copy({CONTINUOUS: lasting}).deriving()
+    best = first
+    for other in _others(hunt, asked, goal):
+        if goal == "mass":
+            other.lighter_than = best.sizing.objective.mass
+        began = time.perf_counter()
+        try:
+            rival = _for_asked(other, searched(other, other.requirements), asked, goal)
+        except InfeasibleError:
+            continue
+        if rival is None:
+            continue
+        found, verdict = rival
+        if _figure(found, verdict, goal) < _BETTER * _figure(best.found, best.verdict, goal):
+            own = replace(other, requirements=asked, goal=goal, fit=found.space.fit)
+            best = verified(own, found, result_of(own, found, began), verdict, requirements)
+    return best
+
+
+def _may_be_better(hunt: Hunt, first: VerifiedDesign, goal: Goal) -> bool:
+    """Whether a design is so far from what closed forms hoped for, or that is not known."""
+    objective = first.sizing.objective
+    return goal != "mass" or objective.goal != goal or objective.mass > _FAR * hunt.hoped
+
+
+def _others(hunt: Hunt, asked: Requirements, goal: Goal) -> Iterator[Hunt]:
+    """Hunts that begin anew, each for any design that is sound."""
+    ways = (_STURDY[0], goal) if goal == "mass" else (one for one in _STURDY if one != goal)
+    for other in ways:
+        own = new_hunt(asked, lambda _: None, hunt.motor, hunt.ambient, other)
+        own.any_will_do = own.best_alone = True
+        yield own
+
+
+def _for_asked(
+    hunt: Hunt, done: VerifiedDesign, asked: Requirements, goal: Goal
+) -> tuple[Found, Verdict] | None:
+    """The gearbox of another search with the torques that are asked for; None where it fails."""
+    own = replace(hunt, requirements=asked, goal=goal, fit=done.found.space.fit)
+    same = given(own, done.found)
+    if same is None or same.weak:
+        return None
+    same = with_sound_plate(same)
+    judged = done.verdict
+    if same.sized.design != done.sizing.design:
+        judged = judge(same.sized.machine)
+    return (same, judged) if judged.meets == "yes" else None
+
+
+def _figure(found: Found, verdict: Verdict, goal: Goal) -> float:
+    """What a goal makes small, of a whole actuator where its verdict knows that."""
+    objective, told = found.sized.objective, {one.id: one.value for one in verdict.headline}
+    if goal == "efficiency":
+        return 1.0 - (told["efficiency"] or 0.0)
+    if goal == "backlash":
+        return told["backlash_p95"] or math.inf
+    if goal == "mass":
+        return told["mass"] or math.inf
+    if goal == "inertia":
+        return found.sized.machine.inertia.reflected_input or math.inf
+    return untied(goal, objective.score, objective.mass)

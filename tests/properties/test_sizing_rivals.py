@@ -1,0 +1,144 @@
+"""Other ways to a design: the better one by what the whole verdict says is taken."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from cqdd_design.design import requirements_from_mapping
+from cqdd_design.errors import InfeasibleError
+from cqdd_design.sizing import rivals
+from cqdd_design.sizing.no_nearer import size_or_refuse
+from cqdd_design.sizing.rivals import _figure, _may_be_better, or_better
+from cqdd_design.sizing.verified import new_hunt
+
+ASKED = {
+    "ratio": 10,
+    "peak_torque": "46 N*m",
+    "continuous_torque": "7.9 N*m",
+    "input_speed": "300 rpm",
+}
+
+
+def verdict(**figures: float) -> Any:
+    return SimpleNamespace(
+        meets="yes", headline=[SimpleNamespace(id=key, value=one) for key, one in figures.items()]
+    )
+
+
+def design(mass: float, goal: str = "mass", derived: frozenset[str] = frozenset()) -> Any:
+    objective = SimpleNamespace(mass=mass, score=mass, goal=goal)
+    found = SimpleNamespace(
+        sized=SimpleNamespace(objective=objective), space=SimpleNamespace(fit="close")
+    )
+    return SimpleNamespace(
+        sizing=SimpleNamespace(
+            objective=objective,
+            design=SimpleNamespace(requirements=SimpleNamespace(continuous_torque=6.5)),
+        ),
+        found=found,
+        derived=derived,
+        verdict=verdict(mass=1.0 + mass, efficiency=0.8 - mass, backlash_p95=10.0 * mass),
+    )
+
+
+def hunt_that_hoped(for_mass: float) -> Any:
+    hunt = new_hunt(requirements_from_mapping(ASKED), lambda _: None, None, None, "mass")
+    hunt.hoped = for_mass
+    return hunt
+
+
+@pytest.fixture
+def searches(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
+    """Hunts that were searched; the first ends without a design, the second with 0.31 kg."""
+    done: list[Any] = []
+
+    def searched(hunt: Any, _: object) -> Any:
+        done.append(hunt)
+        if len(done) == 1:
+            raise InfeasibleError("nothing")
+        return design(0.31)
+
+    monkeypatch.setattr(rivals, "searched", searched)
+    monkeypatch.setattr(
+        rivals, "_for_asked", lambda _hunt, one, *_: (one.found, one.verdict) if one else None
+    )
+    monkeypatch.setattr(rivals, "result_of", lambda *_: "result")
+    monkeypatch.setattr(
+        rivals, "verified", lambda _, found, sizing, judged, __: (found, sizing, judged)
+    )
+    return done
+
+
+def test_what_ends_near_what_it_began_with_is_left_alone(searches: list[Any]) -> None:
+    requirements = requirements_from_mapping(ASKED)
+    for first in (design(0.3), design(0.3, derived=frozenset({"peak_torque"}))):
+        assert or_better(hunt_that_hoped(0.25), first, requirements, "mass") is first
+    # Each search would end with a torque of its own.
+    free = design(0.5, derived=frozenset({"peak_torque"}))
+    assert or_better(hunt_that_hoped(0.25), free, requirements, "mass") is free
+    assert not searches
+
+
+def test_what_ends_far_from_it_is_held_against_others(searches: list[Any]) -> None:
+    requirements = requirements_from_mapping(ASKED)
+    found: Any = or_better(hunt_that_hoped(0.25), design(0.45), requirements, "mass")
+    assert found[0].sized.objective.mass == 0.31
+    assert [one.goal for one in searches] == ["backlash", "mass"]
+    # Each is for any design, and for none as heavy as the one that there is.
+    assert all(one.any_will_do and one.best_alone for one in searches)
+    assert [one.lighter_than for one in searches] == [0.45, 0.45]
+
+
+def test_what_is_no_better_does_not_take_its_place(searches: list[Any]) -> None:
+    first = design(0.3105, goal="efficiency")
+    found = or_better(hunt_that_hoped(0.25), first, requirements_from_mapping(ASKED), "mass")
+    assert len(searches) == 2
+    assert found is first
+
+
+def test_a_rival_holds_as_much_for_ever(searches: list[Any]) -> None:
+    stated = {key: one for key, one in ASKED.items() if key != "continuous_torque"}
+    first = design(0.45, derived=frozenset({"continuous_torque"}))
+    or_better(hunt_that_hoped(0.25), first, requirements_from_mapping(stated), "mass")
+    assert [one.requirements.continuous_torque for one in searches] == [6.5, 6.5]
+
+
+def test_other_goals_always_have_rivals() -> None:
+    first = design(0.25, goal="inertia")
+    assert _may_be_better(hunt_that_hoped(0.25), first, "inertia")
+    assert not _may_be_better(hunt_that_hoped(0.25), design(0.25), "mass")
+    asked = requirements_from_mapping(ASKED)
+    ways = {
+        goal: [one.goal for one in rivals._others(hunt_that_hoped(1.0), asked, goal)]
+        for goal in ("mass", "inertia", "backlash", "efficiency", "size")
+    }
+    assert ways == {
+        "mass": ["backlash", "mass"],
+        "inertia": ["backlash", "size"],
+        "backlash": ["size"],
+        "efficiency": ["backlash", "size"],
+        "size": ["backlash"],
+    }
+
+
+def test_less_of_every_figure_is_better() -> None:
+    light, heavy = design(0.3), design(0.4)
+    for goal in ("mass", "backlash", "efficiency", "size"):
+        small, large = (_figure(one.found, one.verdict, goal) for one in (light, heavy))
+        assert 0.0 < small < large, goal
+
+
+@pytest.mark.deep
+def test_a_search_that_went_astray_is_mended_by_a_rival() -> None:
+    """0.45 kg of discs, ring and bearings were found for 46 N m, where 0.34 bear 48."""
+    found = size_or_refuse(requirements_from_mapping(ASKED))
+    assert found.verdict.meets == "yes"
+    assert found.sizing.objective.goal == "mass"
+    assert found.sizing.objective.mass < 0.32
+    assert found.sizing.design.requirements.peak_torque == 46.0
+    inertia = found.sizing.machine.inertia
+    assert inertia.whole_mass is not None
+    assert inertia.whole_mass < 1.78
