@@ -35,9 +35,10 @@ if TYPE_CHECKING:
 _OTHERWISE = (
     "Measurements follow the protocols of the paper, these figures the requirements: "
     "continuous torque, standing, is of an output at rest, the continuous torque above is held for "
-    "ever at its speed; this and stall torque are met while the current rises, which loosens some "
-    "friction that MOTOR-CONTINUOUS and MOTOR-PEAK count; greatest efficiency is of motor and gearbox at their best point; backlash is the "
-    "mean of a few drawn gearboxes, or of the one that is measured, and not what 95 % stay below."
+    "ever at its speed; the former and stall torque are met while the current rises, which loosens "
+    "some friction that MOTOR-CONTINUOUS and MOTOR-PEAK count; greatest efficiency is of motor "
+    "and gearbox at their best point; backlash is the mean of a few drawn gearboxes, or of the one "
+    "that is measured, and not what 95 % stay below."
 )
 
 

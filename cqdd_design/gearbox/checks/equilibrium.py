@@ -46,6 +46,8 @@ duty's torques for lines of the duty; 0 where nothing does. A line without one i
 proportion, which misses where fewer teeth share less torque."""
 NO_CURES: Cures = MappingProxyType({})
 _MEGA = 1e6
+_UNEVEN = 1.2
+"""Pins over those of a rigid law: where they yield within clearances, few share less evenly."""
 _RING_SPREAD = "raise ring_pitch_radius or disc_count"
 _PIN_SPREAD = "raise output_pins.circle_radius or count"
 
@@ -200,6 +202,7 @@ def _pins(state: GearboxState, loads: PeakLoads, cures: Cures) -> tuple[Check, .
                 (rule, allowed),
                 _lower_peak(check_id, state, loads.torque, allowed.value / max(stress, 1.0), cures),
                 power,
+                uneven=_UNEVEN,
             ),
         )
 

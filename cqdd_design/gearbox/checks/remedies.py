@@ -8,15 +8,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from contextlib import suppress
 
 from cqdd_design.catalog.materials import Material, materials
 from cqdd_design.catalog.screws import shoulder_screws
 from cqdd_design.design.reducer import Reducer
 from cqdd_design.design.requirements import EXTERNAL_LOADS, Requirements
+from cqdd_design.errors import CqddError
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.allowables import Allowable
 from cqdd_design.gearbox.checks.state import GearboxState
 from cqdd_design.gearbox.loads import RigidMaxima
+from cqdd_design.geometry.disc import ligaments
 from cqdd_design.geometry.limits import rounded_down, rounded_up
 
 _MEGA = 1e6
@@ -27,6 +30,8 @@ _AS_STIFF = 0.9
 _SPARE = 1.02
 """Reserve of another material, since stiffer bodies share with fewer teeth and pins."""
 PEAK_KEY = "requirements.peak_torque"
+_MORE_PINS = 6
+"""Beyond as many as are needed, up to which more are tried, in steps of two."""
 _UNMOVED = 0.05e-3
 """A circle that moves by less need not be told, m."""
 
@@ -210,6 +215,8 @@ def stronger_pins(
     limits: tuple[MaterialRule, Allowable],
     lower: str,
     power: int,
+    *,
+    uneven: float = 1.0,
 ) -> str:
     """Remedy for a pin stress that falls with d^power and with the number of pins.
 
@@ -221,6 +228,8 @@ def stronger_pins(
         A pin material's limit, and that of this design.
     lower : str
         How far to lower the torque, in words.
+    uneven : float
+        How much less evenly than rigid ones the pins share.
     """
     rule, allowed = limits
     if allowed.value <= 0.0:
@@ -231,12 +240,10 @@ def stronger_pins(
         wider = rounded_up(pins.sleeve_diameter * 1e3 * ratio)
         return f"raise output_pins.sleeve_diameter to {wider:g} mm, or {lower}"
     words = [*_thicker_pins(state, pins.diameter * ratio ** (1.0 / power))]
-    # An even count, whose peak factor is exactly four.
-    count = 2 * math.ceil(0.5 * pins.count * ratio * 4.0 / state.output_pins.peak_force_factor)
-    # More on the same circle need room between the holes.
-    reach = 2.0 * pins.circle_radius * math.sin(math.pi / count)
-    if reach - state.geometry.hole_diameter >= allowables.LIGAMENT:
-        words.append(f"use {count} pins of {pins.diameter * 1e3:g} mm")
+    if ratio > 1.0:
+        least = pins.count * ratio * uneven * 4.0 / state.output_pins.peak_force_factor
+        if count := _more_pins(state, least):
+            words.append(f"use {count} pins of {pins.diameter * 1e3:g} mm")
     if power == 3:
         words += better_held(state.design.reducer)
     screws = [
@@ -248,6 +255,24 @@ def stronger_pins(
     if screws and power > 1:
         words.append(f"take pins of '{min(screws)[1]}'")
     return ", or ".join((*words, lower))
+
+
+def _more_pins(state: GearboxState, least: float) -> int | None:
+    """So many pins at least whose holes leave the disc enough; None where a few more do not either.
+
+    An even count, whose peak factor is exactly four. How near holes come to the profile hangs on
+    where lobes and holes meet.
+    """
+    key, bore = "reducer.output_pins.count", state.cam_bearing.bearing.outer_diameter
+    first = 2 * math.ceil(0.5 * least)
+    for count in range(first, first + _MORE_PINS, 2):
+        with suppress(CqddError):
+            found = ligaments(state.design.replacing({key: count}), bore_diameter=bore)
+            # What was too thin before is another line's.
+            now = {one.kind: one.thickness for one in state.geometry.ligaments}
+            if all(one.thickness >= min(allowables.LIGAMENT, now[one.kind]) for one in found):
+                return count
+    return None
 
 
 def _thicker_pins(state: GearboxState, least: float) -> tuple[str, ...]:
