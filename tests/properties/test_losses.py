@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -22,7 +23,7 @@ from solids_designs import machines
 
 from cqdd_design.catalog.lubricants import find_lubricant
 from cqdd_design.design import Design, load_design
-from cqdd_design.errors import CatalogError, DesignError, UsageError
+from cqdd_design.errors import CatalogError, ContactError, DesignError, UsageError
 from cqdd_design.gearbox import rigid
 from cqdd_design.gearbox.contact.laws import CamSpring
 from cqdd_design.gearbox.contact.model import ContactModel
@@ -43,8 +44,10 @@ from cqdd_design.gearbox.stages import Stages
 from cqdd_design.geometry import kinematics
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.machine import resolve
+from cqdd_design.machine.machine import _ROUGH_SHARES
 
 DESIGNS = Path(__file__).resolve().parents[2] / "designs"
+GALLERY = DESIGNS.parent / "docs" / "gallery"
 PAPER = load_design(DESIGNS / "cqdd-10.toml")
 SPEED = 1286.0 * math.pi / 30.0
 STEP = 1e-5
@@ -251,6 +254,33 @@ def test_a_look_with_few_torques_loses_what_many_say(name: str) -> None:
             one.crank_torque(speed, torque, sense).sum(axis=-1) for one in (machine.losses, every)
         )
         assert few == pytest.approx(many, rel=0.03)
+
+
+def test_small_torques_without_an_equilibrium_leave_the_others(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Of few torques nothing but the one at rest was left without films: an IndexError."""
+    machine = replace(resolve(load_design(GALLERY / "plain-10.toml")), stiff=True)
+    asked, whole, solved = machine.design.requirements, machine.losses, contact_sweep
+    peak, speed = asked.peak_torque, np.array([asked.input_speed])
+    assert whole.film is not None
+
+    def jammed(model: ContactModel, torque: float, **how: Any) -> ContactSweep:
+        share, still = abs(torque) / peak, how["friction"].film_speed == 0.0
+        if 5e-4 < share < 2e-3 or (5e-4 < share < 0.01 and still):
+            raise ContactError("nothing moves")
+        return solved(model, torque, **how)
+
+    monkeypatch.setattr("cqdd_design.gearbox.contact.sweep.contact_sweep", jammed)
+    few = loss_model(machine.contact, machine.friction, peak, _ROUGH_SHARES)
+    assert len(few.torque) == len(whole.torque) - 1
+    for torque in (0.03 * peak, 0.5 * peak, peak):
+        for slow in (0.0, 0.1, 1.0):
+            mine, all_of_it = (
+                float(one.crank_torque(slow * speed, np.array([torque]), "drive").sum())
+                for one in (few, whole)
+            )
+            assert mine == pytest.approx(all_of_it, rel=0.06)
 
 
 def test_rigid_limit_of_the_contact_equilibrium_is_the_closed_form() -> None:

@@ -91,7 +91,8 @@ def loss_model(
         return found
     given = list(running)
     every = _EVERY if len(given) > _EVERY else 1
-    resting = swept([given[0], *given[1::every]], 0.0)
+    # The largest among them: small ones may have no equilibrium without films.
+    resting = swept(list(dict.fromkeys([given[0], *given[1:-1:every], given[-1]])), 0.0)
     rest = lossy(resting)
     # Where nothing is solved without load the least load stands for it.
     few = ([] if 0.0 in resting else [min(resting)]) + list(resting)
