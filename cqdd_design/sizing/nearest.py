@@ -26,11 +26,10 @@ from cqdd_design.sizing.frame import Goal
 from cqdd_design.sizing.hunt import Hunt, Progress
 from cqdd_design.sizing.infeasible import WORDS, SizingInfeasibleError, listed
 from cqdd_design.sizing.kinds import ranked
-from cqdd_design.sizing.looks import HOT
 from cqdd_design.sizing.looser import looser_figures
 from cqdd_design.sizing.motor_reach import PEAK_LINE, MotorShortError
 from cqdd_design.sizing.motors import lacking
-from cqdd_design.sizing.ratios import OtherRatio, cooler_ratio, other_ratio
+from cqdd_design.sizing.ratios import other_ratio
 from cqdd_design.sizing.refusals import FIGURES
 from cqdd_design.sizing.rivals import or_better
 from cqdd_design.sizing.slower import less_speed
@@ -181,16 +180,11 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
     looser = looser_figures(hunt, refusal, partial(_answer, hunt))
     if looser.short:
         still[f"any {listed([*looser.keys])}"] = looser.short
-    other: OtherRatio | None = None
     if isinstance(refusal, MotorShortError):
-        other = other_ratio(hunt, refusal, partial(_at_ratio, hunt, asked))
-    elif asked.load_cases and HOT in refusal.binding:
-        other = cooler_ratio(hunt, partial(_at_ratio, hunt, asked))
-    if other is not None:
-        ratio = other.ratio
-        if other.short:
-            still[f"ratio {other.tried}"] = other.short
-    if not (isinstance(refusal, MotorShortError) or less.hopeless):
+        ratio, tried, short = other_ratio(hunt, refusal, partial(_at_ratio, hunt, asked))
+        if short:
+            still[f"ratio {tried}"] = short
+    elif not less.hopeless:
         # What torque nobody stated has to fit is not known before a search.
         doubtful = PEAK in asked.derived or _Way(hunt, None, refusal).doubtful
         for key, limit in _limits(hunt):

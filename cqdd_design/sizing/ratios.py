@@ -15,9 +15,6 @@ from cqdd_design.sizing.motor_reach import MotorShortError
 TRIES = 2
 """Ratios that are tried where the rotor is felt too much."""
 
-_COOLER = 1.25, 1.6, 2.0
-"""Ratios over the one that is asked for that are tried where a duty is too hot."""
-
 
 class OtherRatio(NamedTuple):
     """The nearest ratio that fits, if any was found.
@@ -54,23 +51,6 @@ def other_ratio(hunt: Hunt, refusal: MotorShortError, search: _Search) -> OtherR
         hunt.say("looking for the greatest ratio that fits")
         return _greatest(refusal.most_ratio, search)
     return OtherRatio(None, asked.ratio, ())
-
-
-def cooler_ratio(hunt: Hunt, search: _Search) -> OtherRatio:
-    """A larger ratio at which a duty warms the motor less, of a few: copper's heat falls with it.
-
-    That of the motor's own drag grows.
-    """
-    asked, first = hunt.requirements.ratio, OtherRatio(None, 0, ())
-    hunt.say("looking for a larger ratio that fits")
-    for times in _COOLER:
-        ratio = min(math.ceil(times * asked), MOST_RATIO)
-        fits, short = search(ratio)
-        if fits:
-            return OtherRatio(ratio, ratio, ())
-        if not first.tried:
-            first = OtherRatio(None, ratio, short)
-    return first
 
 
 def _least(asked: Requirements, refusal: MotorShortError, search: _Search) -> OtherRatio:

@@ -11,7 +11,7 @@ from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.sizing import looser, nearest
 from cqdd_design.sizing.infeasible import SizingInfeasibleError
 from cqdd_design.sizing.motor_reach import MotorShortError
-from cqdd_design.sizing.ratios import cooler_ratio, other_ratio
+from cqdd_design.sizing.ratios import other_ratio
 from cqdd_design.sizing.refusals import short_of
 from cqdd_design.sizing.verified import new_hunt
 
@@ -194,23 +194,3 @@ def test_the_greatest_ratio_of_a_rotor_that_is_felt_too_much(most, fits, told, t
     short = MotorShortError("no.", ("REFLECTED-INERTIA",), 8.0, 0.0, most)
     assert tuple(other_ratio(new(), short, search)) == told
     assert seen == tried
-
-
-@pytest.mark.parametrize(
-    ("fits", "told", "tried"),
-    [
-        (10, (10, 10, ()), [10]),
-        (14, (16, 16, ()), [10, 13, 16]),
-        (99, (None, 10, ("THERMAL-RISE",)), [10, 13, 16]),
-    ],
-)
-def test_a_duty_that_is_too_hot_is_tried_at_larger_ratios(fits, told, tried):
-    done = []
-
-    def search(ratio):
-        done.append(ratio)
-        return ratio >= fits, () if ratio >= fits else ("THERMAL-RISE",)
-
-    hunt = new_hunt(requirements_from_mapping({"ratio": 8}), lambda _: None, None, None, "mass")
-    assert tuple(cooler_ratio(hunt, search)) == told
-    assert done == tried
