@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from cqdd_design.design import Requirements
-from cqdd_design.errors import InfeasibleError
+from cqdd_design.errors import CqddError
 from cqdd_design.sizing.able import CONTINUOUS, PEAK
 from cqdd_design.sizing.eased import given
 from cqdd_design.sizing.frame import Goal
@@ -64,7 +64,8 @@ def or_better(
         began = time.perf_counter()
         try:
             rival = _for_asked(other, searched(other, other.requirements), asked, goal)
-        except InfeasibleError:
+        except CqddError:
+            # There is a design already, whatever another way ends with.
             continue
         if rival is None:
             continue
