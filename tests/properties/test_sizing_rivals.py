@@ -12,7 +12,9 @@ from cqdd_design.errors import InfeasibleError
 from cqdd_design.sizing import rivals
 from cqdd_design.sizing.no_nearer import size_or_refuse
 from cqdd_design.sizing.rivals import _figure, _may_be_better, or_better
-from cqdd_design.sizing.verified import new_hunt
+from cqdd_design.sizing.verified import _too_heavy, new_hunt, searched
+
+road = "cqdd_design.sizing.verified."
 
 ASKED = {
     "ratio": 10,
@@ -90,6 +92,28 @@ def test_what_ends_far_from_it_is_held_against_others(searches: list[Any]) -> No
     # Each is for any design, and for none as heavy as the one that there is.
     assert all(one.any_will_do and one.best_alone for one in searches)
     assert [one.lighter_than for one in searches] == [0.45, 0.45]
+
+
+def test_a_search_for_a_lighter_design_ends_where_it_finds_none(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Before anything is looked at that costs time."""
+    hunt = hunt_that_hoped(0.25)
+    assert not _too_heavy(hunt, design(0.3).found)
+    hunt.lighter_than = 0.3
+    assert _too_heavy(hunt, design(0.3).found)
+    assert not _too_heavy(hunt, design(0.29).found)
+    hunt.any_will_do = hunt.best_alone = True
+    monkeypatch.setattr(road + "promising", lambda _: first)
+    monkeypatch.setattr(road + "motor_far_short", lambda *_: ())
+    monkeypatch.setattr(road + "learn", lambda *_: pytest.fail("is looked at"))
+    first = design(0.3).found
+    first.rated, first.weak = True, ()
+    first.sized.machine = None
+    first.space = SimpleNamespace(fit=None)
+    first.sized.design = SimpleNamespace(requirements=hunt.requirements)
+    with pytest.raises(InfeasibleError):
+        searched(hunt, hunt.requirements)
 
 
 def test_what_is_no_better_does_not_take_its_place(searches: list[Any]) -> None:
