@@ -116,5 +116,6 @@ def _figure(found: Found, verdict: Verdict, goal: Goal) -> float:
     if goal == "mass":
         return told["mass"] or math.inf
     if goal == "inertia":
-        return found.sized.machine.inertia.reflected_input or math.inf
+        # The rotor's share is the same, and would hide what the gearboxes differ by.
+        return found.sized.machine.inertia.gearbox_reflected
     return untied(goal, objective.score, objective.mass)

@@ -33,7 +33,11 @@ def verdict(**figures: float) -> Any:
 def design(mass: float, goal: str = "mass", derived: frozenset[str] = frozenset()) -> Any:
     objective = SimpleNamespace(mass=mass, score=mass, goal=goal)
     found = SimpleNamespace(
-        sized=SimpleNamespace(objective=objective), space=SimpleNamespace(fit="close")
+        sized=SimpleNamespace(
+            objective=objective,
+            machine=SimpleNamespace(inertia=SimpleNamespace(gearbox_reflected=1e-5 * mass)),
+        ),
+        space=SimpleNamespace(fit="close"),
     )
     return SimpleNamespace(
         sizing=SimpleNamespace(
@@ -150,7 +154,7 @@ def test_other_goals_always_have_rivals() -> None:
 
 def test_less_of_every_figure_is_better() -> None:
     light, heavy = design(0.3), design(0.4)
-    for goal in ("mass", "backlash", "efficiency", "size"):
+    for goal in ("mass", "inertia", "backlash", "efficiency", "size"):
         small, large = (_figure(one.found, one.verdict, goal) for one in (light, heavy))
         assert 0.0 < small < large, goal
 
