@@ -164,9 +164,7 @@ def with_motor(goal: Goal, sized: SizedDesign, requirements: Requirements, motor
     if goal == "backlash":
         return alone
     if goal == "size":
-        count = reducer.disc_count
-        pack = count * reducer.disc_thickness + (count - 1) * reducer.disc_spacing
-        length = max(motor.length or motor.rotor_length or 0.0, pack)
+        length = max(motor.length or motor.rotor_length or 0.0, reducer.pack_length)
         return 0.25 * math.pi * (motor.outer_diameter or 0.0) ** 2 * length
     return losses_share(requirements, motor, BOUNDARY_FRICTION * alone)
 

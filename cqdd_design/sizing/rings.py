@@ -29,7 +29,7 @@ _MAY_WIN = 1.06
 NOT_FAR, _WIDER, _LESS_THROW, _SPARE = 0.4, (1.01, 1.02, 1.04), (0.97, 0.9), 1.01
 """From which margin of the shaft's lines wider rings and less eccentricity are tried, how much
 wider and less, and how much less load on the cam bearing than the margin says."""
-_FAR = 0.3
+_NOT_FAR_STATED = 0.3
 """That margin where a peak torque was stated, and is not lowered instead."""
 FAR_SHORT = 0.6
 """Margin of bearings at a shaft's ends below which rings that are a little wider do not help."""
@@ -73,8 +73,8 @@ class Rings:
         if found is None or not found.weak:
             return found
         margin = min(line.margin if line.known else 0.0 for line in found.weak)
-        far = NOT_FAR if PEAK in self._hunt.requirements.derived else _FAR
-        if margin < far:
+        lowered = PEAK in self._hunt.requirements.derived
+        if margin < (NOT_FAR if lowered else _NOT_FAR_STATED):
             return found
         return min(self._stronger(found, margin), key=lambda one: one.worth, default=found)
 

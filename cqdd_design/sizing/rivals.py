@@ -13,13 +13,13 @@ import math
 import time
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import assert_never
 
 from cqdd_design.design import Requirements
 from cqdd_design.errors import CqddError
 from cqdd_design.sizing.able import CONTINUOUS, PEAK
 from cqdd_design.sizing.eased import given
 from cqdd_design.sizing.frame import Goal
-from cqdd_design.sizing.goals import untied
 from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.outcome import result_of
 from cqdd_design.sizing.plates import with_sound_plate
@@ -57,21 +57,15 @@ def or_better(
         # No rival is to hold less for ever than the first.
         lasting = first.sizing.design.requirements.continuous_torque
         asked = asked.unchecked_copy({CONTINUOUS: lasting}).deriving()
-    best = first
+    best, began = first, time.perf_counter() - first.sizing.seconds
     for other in _others(hunt, asked, goal):
         if goal == "mass":
             other.lighter_than = best.sizing.objective.mass
-        began = time.perf_counter()
-        try:
-            rival = _for_asked(other, searched(other, other.requirements), asked, goal)
-        except CqddError:
-            # There is a design already, whatever another way ends with.
-            continue
+        rival = _rival(other, asked, goal)
         if rival is None:
             continue
-        found, verdict = rival
+        own, found, verdict = rival
         if _figure(found, verdict, goal) < _BETTER * _figure(best.found, best.verdict, goal):
-            own = replace(other, requirements=asked, goal=goal, fit=found.space.fit)
             best = verified(own, found, result_of(own, found, began), verdict, requirements)
     return best
 
@@ -91,24 +85,32 @@ def _others(hunt: Hunt, asked: Requirements, goal: Goal) -> Iterator[Hunt]:
         yield own
 
 
-def _for_asked(
-    hunt: Hunt, done: VerifiedDesign, asked: Requirements, goal: Goal
-) -> tuple[Found, Verdict] | None:
-    """The gearbox of another search with the torques that are asked for; None where it fails."""
-    own = replace(hunt, requirements=asked, goal=goal, fit=done.found.space.fit)
-    same = given(own, done.found)
-    if same is None or same.weak:
+def _rival(hunt: Hunt, asked: Requirements, goal: Goal) -> tuple[Hunt, Found, Verdict] | None:
+    """What another hunt ends with, as a design of the goal that is asked for; None where nothing.
+
+    There is a design already, so whatever else the hunt ends with is no matter.
+    """
+    try:
+        done = searched(hunt, asked)
+        own = replace(hunt, goal=goal, fit=done.found.space.fit)
+        same = given(own, done.found)
+        if same is None or same.weak:
+            return None
+        same = with_sound_plate(same)
+        judged = done.verdict
+        if same.sized.design != done.sizing.design:
+            judged = judge(same.sized.machine)
+    except CqddError:
         return None
-    same = with_sound_plate(same)
-    judged = done.verdict
-    if same.sized.design != done.sizing.design:
-        judged = judge(same.sized.machine)
-    return (same, judged) if judged.meets == "yes" else None
+    return (own, same, judged) if judged.meets == "yes" else None
 
 
 def _figure(found: Found, verdict: Verdict, goal: Goal) -> float:
-    """What a goal makes small, of a whole actuator where its verdict knows that."""
-    objective, told = found.sized.objective, {one.id: one.value for one in verdict.headline}
+    """What a goal makes small, of a whole actuator where its verdict knows that.
+
+    Never the score of a search, which may have turned to another goal.
+    """
+    told = {one.id: one.value for one in verdict.headline}
     if goal == "efficiency":
         return 1.0 - (told["efficiency"] or 0.0)
     if goal == "backlash":
@@ -118,4 +120,7 @@ def _figure(found: Found, verdict: Verdict, goal: Goal) -> float:
     if goal == "inertia":
         # The rotor's share is the same, and would hide what the gearboxes differ by.
         return found.sized.machine.inertia.gearbox_reflected
-    return untied(goal, objective.score, objective.mass)
+    if goal == "size":
+        reducer = found.sized.design.reducer
+        return reducer.ring.outer_diameter**2 * reducer.pack_length
+    assert_never(goal)

@@ -244,7 +244,11 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
 
 
 def _after_turn(hunt: Hunt, found: Found, judged: Verdict) -> Found | None:
-    """The design of a hunt that has turned; without any on needles, of bare pins by other ways."""
+    """The design of a hunt that has turned; without any on needles, of bare pins by other ways.
+
+    Cam bearings that were too warm for one goal may do for another.
+    """
+    hunt.too_warm.clear()
     other = or_weaker(hunt, lambda: lightest(hunt))
     if other is None and hunt.pins == (True,):
         hunt.pins = False, True

@@ -33,6 +33,7 @@ from cqdd_design.sizing.known import answered, key_of, least_of, note
 from cqdd_design.sizing.looks import _asks_for_a_wider_ring, read_spread
 from cqdd_design.sizing.refine import Starts, climb
 from cqdd_design.sizing.refusals import nothing
+from cqdd_design.sizing.rings import Rings
 from cqdd_design.sizing.search import Search
 from cqdd_design.sizing.shafts import weak_lines
 from cqdd_design.sizing.spaces import FITS, MATERIALS, Space, _undominated, spaces
@@ -474,6 +475,22 @@ def test_a_kind_with_a_sound_shaft_is_not_told_from_another_s() -> None:
     assert _is_too_weak(hunt, kind)
     hunt.known[key_of(space)] = SimpleNamespace()  # type: ignore[assignment]
     assert not _is_too_weak(hunt, kind)
+
+
+@pytest.mark.parametrize(("margin", "told"), [(0.29, False), (0.31, True), (0.41, True)])
+def test_shafts_that_are_not_far_from_sound_are_mended(
+    monkeypatch: pytest.MonkeyPatch, margin: float, told: bool
+) -> None:
+    """From less where a peak torque was stated; one that was not is lowered instead."""
+    poor = weak(("SUPPORT-STATIC", margin))
+    sound = SimpleNamespace(weak=(), worth=(False, 0.3))
+    monkeypatch.setattr(Rings, "_any", lambda _: poor)
+    monkeypatch.setattr(Rings, "_stronger", lambda *_: iter([sound]))
+    stated = hunt_for(asked(10, 47.0, 7.9, 300.0))
+    free = replace(stated, requirements=stated.requirements.deriving("peak_torque"))
+    space = next(iter(spaces(stated.requirements, stated.fit)))
+    assert (Rings(stated, space, None).any() is sound) is told
+    assert (Rings(free, space, None).any() is sound) is (margin > 0.4)
 
 
 def test_what_is_far_too_weak_at_its_strongest_is_not_searched(

@@ -221,6 +221,15 @@ def test_other_cam_bearings_are_tried_before_another_goal(monkeypatch, found):
     assert searched == [{found.cam}, {found.cam, other.cam}]
 
 
+def test_another_goal_has_all_cam_bearings_again(monkeypatch, found):
+    monkeypatch.setattr("cqdd_design.sizing.verified.lightest", lambda hunt: found)
+    monkeypatch.setattr("cqdd_design.sizing.verified.or_weaker", lambda _, search: search())
+    own = hunt(asked(), pins=(False, True))
+    own.too_warm.add("6803")
+    assert _after_turn(own, found, Judged()) is found
+    assert own.too_warm == set()
+
+
 def test_bare_pins_come_back_where_needles_leave_nothing(found):
     # Discs of 6.2 mm are thinner than any cage is wide.
     both = hunt(asked(length="13 mm"), pins=(False, True))

@@ -14,7 +14,7 @@ from cqdd_design.sizing.no_nearer import size_or_refuse
 from cqdd_design.sizing.rivals import _figure, _may_be_better, or_better
 from cqdd_design.sizing.verified import _too_heavy, new_hunt, searched
 
-road = "cqdd_design.sizing.verified."
+ROAD = "cqdd_design.sizing.verified."
 
 ASKED = {
     "ratio": 10,
@@ -24,26 +24,25 @@ ASKED = {
 }
 
 
-def verdict(**figures: float) -> Any:
+def verdict(*, meets: str = "yes", **figures: float) -> Any:
     return SimpleNamespace(
-        meets="yes", headline=[SimpleNamespace(id=key, value=one) for key, one in figures.items()]
+        meets=meets, headline=[SimpleNamespace(id=key, value=one) for key, one in figures.items()]
     )
 
 
 def design(mass: float, goal: str = "mass", derived: frozenset[str] = frozenset()) -> Any:
-    objective = SimpleNamespace(mass=mass, score=mass, goal=goal)
-    found = SimpleNamespace(
-        sized=SimpleNamespace(
-            objective=objective,
-            machine=SimpleNamespace(inertia=SimpleNamespace(gearbox_reflected=1e-5 * mass)),
-        ),
-        space=SimpleNamespace(fit="close"),
+    objective = SimpleNamespace(mass=mass, goal=goal)
+    made = SimpleNamespace(
+        reducer=SimpleNamespace(ring=SimpleNamespace(outer_diameter=0.1 * mass), pack_length=0.016),
+        requirements=SimpleNamespace(continuous_torque=6.5),
     )
+    inertia = SimpleNamespace(gearbox_reflected=1e-5 * mass)
+    sized = SimpleNamespace(
+        objective=objective, design=made, machine=SimpleNamespace(inertia=inertia)
+    )
+    found = SimpleNamespace(sized=sized, space=SimpleNamespace(fit="close"), weak=())
     return SimpleNamespace(
-        sizing=SimpleNamespace(
-            objective=objective,
-            design=SimpleNamespace(requirements=SimpleNamespace(continuous_torque=6.5)),
-        ),
+        sizing=SimpleNamespace(objective=objective, seconds=20.0, design=made),
         found=found,
         derived=derived,
         verdict=verdict(mass=1.0 + mass, efficiency=0.8 - mass, backlash_p95=10.0 * mass),
@@ -68,9 +67,9 @@ def searches(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
         return design(0.31)
 
     monkeypatch.setattr(rivals, "searched", searched)
-    monkeypatch.setattr(
-        rivals, "_for_asked", lambda _hunt, one, *_: (one.found, one.verdict) if one else None
-    )
+    monkeypatch.setattr(rivals, "given", lambda _, one: one)
+    monkeypatch.setattr(rivals, "with_sound_plate", lambda one: one)
+    monkeypatch.setattr(rivals, "judge", lambda _: pytest.fail("is judged twice"))
     monkeypatch.setattr(rivals, "result_of", lambda *_: "result")
     monkeypatch.setattr(
         rivals, "verified", lambda _, found, sizing, judged, __: (found, sizing, judged)
@@ -108,9 +107,9 @@ def test_a_search_for_a_lighter_design_ends_where_it_finds_none(
     assert _too_heavy(hunt, design(0.3).found)
     assert not _too_heavy(hunt, design(0.29).found)
     hunt.any_will_do = hunt.best_alone = True
-    monkeypatch.setattr(road + "promising", lambda _: first)
-    monkeypatch.setattr(road + "motor_far_short", lambda *_: ())
-    monkeypatch.setattr(road + "learn", lambda *_: pytest.fail("is looked at"))
+    monkeypatch.setattr(ROAD + "promising", lambda _: first)
+    monkeypatch.setattr(ROAD + "motor_far_short", lambda *_: ())
+    monkeypatch.setattr(ROAD + "learn", lambda *_: pytest.fail("is looked at"))
     first = design(0.3).found
     first.rated, first.weak = True, ()
     first.sized.machine = None
@@ -125,6 +124,32 @@ def test_what_is_no_better_does_not_take_its_place(searches: list[Any]) -> None:
     found = or_better(hunt_that_hoped(0.25), first, requirements_from_mapping(ASKED), "mass")
     assert len(searches) == 2
     assert found is first
+
+
+def test_what_changes_on_the_way_is_judged_anew(
+    searches: list[Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(rivals, "given", lambda *_: design(0.3).found)
+    requirements, first = requirements_from_mapping(ASKED), design(0.45)
+    for meets, mass in (("no", 0.45), ("yes", 0.3)):
+        searches.clear()
+        monkeypatch.setattr(rivals, "judge", lambda _, meets=meets: verdict(mass=1.3, meets=meets))
+        found: Any = or_better(hunt_that_hoped(0.25), first, requirements, "mass")
+        sized = found.found.sized if found is first else found[0].sized
+        assert sized.objective.mass == mass
+
+
+def test_a_gearbox_that_has_no_room_or_a_weak_shaft_is_no_rival(
+    searches: list[Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    weak = design(0.3).found
+    weak.weak = (object(),)
+    for one in (None, weak):
+        searches.clear()
+        monkeypatch.setattr(rivals, "given", lambda *_, one=one: one)
+        first = design(0.45)
+        found = or_better(hunt_that_hoped(0.25), first, requirements_from_mapping(ASKED), "mass")
+        assert found is first
 
 
 def test_a_rival_holds_as_much_for_ever(searches: list[Any]) -> None:
