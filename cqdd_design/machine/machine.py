@@ -320,6 +320,13 @@ class Machine:
         return LoadedContacts(self.contact)
 
     @cached_property
+    def running_contacts(self) -> LoadedContacts:
+        """The same while it turns at its input speed, which films ease."""
+        from cqdd_design.machine.capacity import LoadedContacts
+
+        return LoadedContacts(self.contact, self.contact.film_speed)
+
+    @cached_property
     def life(self) -> LifeResult:
         """Over the duty of the requirements; ContactError where a case has no equilibrium."""
         from cqdd_design.gearbox.life import life

@@ -24,7 +24,6 @@ from cqdd_design.results import Check
 from cqdd_design.roads.sized_file import refuse_edited, refuse_judged, write_fresh
 from cqdd_design.roads.telling import Progress, silent
 from cqdd_design.sizing import SizingResult, size
-from cqdd_design.sizing.costs import held_to_motor
 from cqdd_design.sizing.frame import Goal
 
 if TYPE_CHECKING:
@@ -248,6 +247,8 @@ def size_design(
     )
     sizing = found.sizing.named(place.stem)
     if found.verdict is not None:
+        from cqdd_design.sizing.costs import held_to_motor
+
         sizing = replace(sizing, costs=held_to_motor(sizing.costs, found.verdict.lines))
     # Both are written to the file even where they equal their defaults.
     own = {"schema_version": 1, "name": place.stem}

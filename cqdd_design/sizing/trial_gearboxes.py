@@ -83,12 +83,15 @@ def _yield_alike(one: tuple[float, ...], other: tuple[float, ...]) -> bool:
 
 
 def calibrate(hunt: Hunt, machine: Machine, drawn: Drawn) -> None:
-    """Note what yielding discs and ring change, where a machine was looked at without them too."""
+    """Note what yielding discs and ring change, where a machine was looked at without them too.
+
+    Nothing of what none of the rigid ones has, such as a torque that turns free ones unloaded.
+    """
     if hunt.rigid is None or hunt.rigid[0].design != machine.design:
         return
     hunt.yielding_at = _yielding_at(machine)
     hunt.yielding = tuple(
-        _high(one) / np.where(other, other, 1.0)
+        np.where(other, _high(one), 1.0) / np.where(other, other, 1.0)
         for one, other in zip(drawn[:2], hunt.rigid[1], strict=True)
     )
 

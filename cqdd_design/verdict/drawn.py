@@ -21,7 +21,6 @@ from cqdd_design.gearbox.tolerance.evaluate import FREEDOM, LOADS, OUTPUTS, PER_
 from cqdd_design.gearbox.tolerance.remembered import work_remembered
 from cqdd_design.gearbox.tolerance.run import ToleranceResult, run_ensemble
 from cqdd_design.machine import Machine
-from cqdd_design.machine.capacity import LoadedContacts
 from cqdd_design.machine.temperatures import MachineTemperatures
 from cqdd_design.results import Check
 
@@ -140,9 +139,7 @@ class Allowed:
         by_id = {line.id: line for line in lines}
         if not all(check in by_id and by_id[check].known for check in (*_RING, *_CAM)):
             return None
-        model = machine.contact
-        running = LoadedContacts(model, model.film_speed)
-        perfect = running.greatest(machine.design.requirements.equal_torque)
+        perfect = machine.running_contacts.greatest(machine.design.requirements.equal_torque)
         cam = machine.analysis.cam_bearing
         pressure = by_id["CONTACT-RING-CONTINUOUS"].margin
         load = by_id["BEARING-LIFE"].margin ** (1.0 / cam.exponent)

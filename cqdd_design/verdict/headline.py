@@ -72,12 +72,18 @@ class Figure:
         return {key: value for key, value in vars(self).items() if key != "missing" or value}
 
 
-def headline(evidence: Evidence, lines: Sequence[Check]) -> tuple[Figure, ...]:
-    """Peak and continuous torque, life, backlash, efficiency, temperature and mass."""
+def headline(evidence: Evidence, lines: Sequence[Check], peak: Figure) -> tuple[Figure, ...]:
+    """Peak and continuous torque, life, backlash, efficiency, temperature and mass.
+
+    Parameters
+    ----------
+    peak : Figure
+        Of `peak_torque`, which takes longest and asks for no drawn gearboxes.
+    """
     by_id = {line.id: line for line in lines}
     machine = evidence.machine
     return (
-        _peak(evidence, by_id["MOTOR-PEAK"], lines),
+        peak,
         _continuous(evidence, by_id),
         _life(evidence, by_id, lines),
         _asked(backlash(evidence), by_id.get("BACKLASH")),
@@ -131,9 +137,10 @@ def _continuous(evidence: Evidence, by_id: dict[str, Check]) -> Figure:
     return Figure(name, title, value, "N*m", None, heat.status, basis)
 
 
-def _peak(evidence: Evidence, motor: Check, lines: Sequence[Check]) -> Figure:
-    """What motor and gearbox both reach."""
+def peak_torque(evidence: Evidence, lines: Sequence[Check]) -> Figure:
+    """What motor and gearbox both reach; `lines` are those of perfect parts."""
     machine = evidence.machine
+    (motor,) = (line for line in lines if line.id == "MOTOR-PEAK")
     required = machine.design.requirements.peak_torque
     title, name = "peak torque at standstill, motor cold", "peak_torque"
     ways = [] if motor.value is None else [(motor.value, motor.basis)]

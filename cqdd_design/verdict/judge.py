@@ -13,7 +13,7 @@ from cqdd_design.gearbox.checks.guide_row import GEOMETRY
 from cqdd_design.machine import Machine
 from cqdd_design.results import Check, worst_status
 from cqdd_design.verdict.evidence import Evidence, Progress, gather
-from cqdd_design.verdict.headline import Figure, headline
+from cqdd_design.verdict.headline import Figure, headline, peak_torque
 from cqdd_design.verdict.lines import lines_without_drawn, with_drawn
 
 Meets = Literal["yes", "no", "unknown"]
@@ -35,6 +35,8 @@ class Verdict:
         Every requirement and check.
     evidence : Evidence
         What they were made of.
+    peak : Figure
+        The first of the headline.
 
     Notes
     -----
@@ -45,6 +47,7 @@ class Verdict:
     name: str
     lines: tuple[Check, ...]
     evidence: Evidence
+    peak: Figure
 
     def __repr__(self) -> str:
         """The answer and the seven figures."""
@@ -53,7 +56,7 @@ class Verdict:
     @cached_property
     def headline(self) -> tuple[Figure, ...]:
         """The seven figures a designer looks at first."""
-        return headline(self.evidence, self.lines)
+        return headline(self.evidence, self.lines, self.peak)
 
     @property
     def meets(self) -> Meets:
@@ -177,12 +180,18 @@ def judge(
     GeometryError
         When disc, ring or holes cannot exist.
     """
-    evidence, lines = gather(
+    evidence, (lines, peak) = gather(
         machine,
         specimen,
-        lines_without_drawn,
+        _without_drawn,
         samples=samples,
         sensitivity=sensitivity,
         progress=progress,
     )
-    return Verdict(machine.given.name, with_drawn(evidence, lines), evidence)
+    return Verdict(machine.given.name, with_drawn(evidence, lines), evidence, peak)
+
+
+def _without_drawn(evidence: Evidence) -> tuple[tuple[Check, ...], Figure]:
+    """What there is to tell while gearboxes are drawn."""
+    lines = lines_without_drawn(evidence)
+    return lines, peak_torque(evidence, lines)

@@ -229,6 +229,25 @@ print("LOADED", *loaded, file=sys.stderr)
         assert "pydantic" not in loaded
 
 
+def test_the_screen_alone_imports_no_model_of_a_verdict(python, tmp_path):
+    """They take as long to come as it takes to look."""
+    done = python(
+        f"""
+import sys
+sys.argv = ["cqdd-design", "size", "--ratio", "10", "--quick", "--out", {str(tmp_path / "q.toml")!r}]
+from cqdd_design.__main__ import main
+try:
+    main()
+finally:
+    print("LOADED", *sys.modules, file=sys.stderr)
+"""
+    )
+    loaded = set(done.stderr.partition("LOADED")[2].split())
+    assert "cqdd_design.sizing.screen" in loaded
+    rooms = {".".join(name.split(".")[:2]) for name in loaded}
+    assert rooms.isdisjoint({"cqdd_design.verdict", "cqdd_design.actuator", "scipy.optimize"})
+
+
 DOORS = (
     "cqdd_design.roads.size",
     "cqdd_design.gearbox",

@@ -61,7 +61,7 @@ def test_what_is_not_asked_for_has_no_line(judged: Verdict) -> None:
     assert asked == {row.id for row in ROWS}
     silent = replace(judged.evidence, machine=under())
     assert asked_lines(silent) == ()
-    figures = {one.id: one for one in headline(silent, judged.lines[: -len(ROWS)])}
+    figures = {one.id: one for one in headline(silent, judged.lines[: -len(ROWS)], judged.peak)}
     for name in ("backlash_p95", "efficiency", "mass"):
         assert figures[name].required is None
 

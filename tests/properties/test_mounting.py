@@ -23,7 +23,7 @@ from cqdd_design.solids.mesh import FINE
 from cqdd_design.solids.part import overall_size
 from cqdd_design.verdict.asked import asked_lines
 from cqdd_design.verdict.evidence import gather
-from cqdd_design.verdict.headline import headline
+from cqdd_design.verdict.headline import peak_torque
 from cqdd_design.verdict.lines import lines_without_drawn, with_drawn
 
 DESIGNS = Path(__file__).resolve().parents[2] / "designs"
@@ -126,7 +126,7 @@ def test_a_stop_is_judged_by_all_that_gives_way() -> None:
     (line,) = (one for one in told if one.id == "SHOCK-STOP")
     assert line.limit is not None
     assert line.limit < 0.7 * carried
-    peak = headline(worse, told)[0]
+    peak = peak_torque(worse, told)
     assert peak.value is None or peak.value <= line.limit * 1.01
 
 

@@ -129,7 +129,7 @@ def test_lines_pass_exactly_where_the_life_does(machine: Machine, judged: Verdic
     most = drawn_cam_hours(machine, judged.evidence.drawn, judged.lines)
     assert figure.value == min(hours, most)
     assert most < life.cam.set_hours
-    alone = headline(replace(judged.evidence, drawn=None), judged.lines)
+    alone = headline(replace(judged.evidence, drawn=None), judged.lines, judged.peak)
     perfect = next(one for one in alone if one.id == "life")
     assert perfect.title == "life of perfect parts"
     assert perfect.value == min(hours, life.cam.set_hours)

@@ -248,6 +248,8 @@ def test_a_search_scales_warm_gearboxes_by_what_yielding_made_of_others(light: M
     assert direct.warm is not None
     assert tuple(again.warm.columns) == FREEDOM
     found, wanted = (
-        np.quantile(one.columns["backlash_arcmin"], 0.95) for one in (again.warm, direct.warm)
+        np.quantile(one.columns["unloaded_torque_Nm"], 0.95) for one in (again.warm, direct.warm)
     )
-    assert found == pytest.approx(wanted, rel=0.05)
+    # No gearbox is tight while it is cold, which says nothing of how tight warm ones are: rigid
+    # parts press harder.
+    assert wanted <= found < 2.0 * wanted

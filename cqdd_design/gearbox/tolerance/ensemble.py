@@ -187,7 +187,7 @@ def make_ensemble(
     temperatures : PartTemperatures
         Of the parts of all gearboxes.
     outputs : tuple of str
-        `OUTPUTS`, or `LOADS` or `FREEDOM` where nothing else is asked, in half of the time.
+        `OUTPUTS`, or `LOADS` or `FREEDOM` where nothing else is asked, in less time.
     rigid : bool
         Whether discs and ring do not yield although they could.
     at_rest : bool

@@ -306,34 +306,40 @@ def _with_errors(nominal: Nominal, errors: GearboxErrors) -> Toleranced:
 
 
 @part()
-def _free(
-    nominal: Nominal,
-    found: Toleranced,
-    start: Start,
-    errors: GearboxErrors,
-    tight: Any,
-    values: Any,
+def _turned(
+    parts: RigidParts, some: Any, sense: float, start: Start, ends: Any, tight: Any
 ) -> int:
-    """Backlash, and which of the marked angles are `tight`; -1, or a failing angle."""
-    size = 3 + 3 * nominal.gaps.shape[1]
-    some = np.flatnonzero(start.marked)
-    parts = _rigid_parts(nominal, found, errors)
-    free_count = some.size
-    least = Extremes(np.empty(free_count), np.empty(free_count), np.empty((free_count, size)))
-    most = Extremes(np.empty(free_count), least.preload, least.poses)
-    at = backlash_sweep(parts, some, -1.0, start.free_poses[0], least)
-    if at < 0:
-        at = backlash_sweep(parts, some, 1.0, start.free_poses[1], most)
+    """How far the output turns by next to nothing, and at which angles parts are `tight`.
+
+    -1, or a failing angle.
+    """
+    found = Extremes(ends, np.empty(some.size), np.empty((some.size, start.free_poses.shape[2])))
+    poses = start.free_poses[1 if sense > 0.0 else 0]
+    at = backlash_sweep(parts, some, sense, poses, found)
     if at >= 0:
         return int(some[at])
+    for b in range(some.size):
+        tight[b] = found.preload[b] > OVERLAP
+    return -1
+
+
+@part()
+def _free(parts: RigidParts, some: Any, start: Start, tight: Any, values: Any) -> int:
+    """Backlash, and which of `some` angles are `tight`; -1, or a failing angle."""
+    count = some.size
+    least, most = np.empty(count), np.empty(count)
+    stopped = _turned(parts, some, -1.0, start, least, tight)
+    if stopped < 0:
+        stopped = _turned(parts, some, 1.0, start, most, tight)
+    if stopped >= 0:
+        return int(stopped)
     free = 0.0
-    for b in range(free_count):
-        tight[b] = most.preload[b] > OVERLAP
-        width = most.ends[b] - least.ends[b]
+    for b in range(count):
+        width = most[b] - least[b]
         # Pressed from both sides there is none.
         if not (tight[b] and width <= CLOSED / parts.length):
             free += max(width, 0.0)
-    values[BACKLASH] = free / free_count
+    values[BACKLASH] = free / count
     return -1
 
 
@@ -357,8 +363,8 @@ def solve_gearbox(
     asked : int
         `EVERYTHING`, or less in less time: `LOADS_ALONE` leaves all but `RING_FORCE`, `PRESSURE`
         and `CAM_LOAD`, `RANKED_ALONE` leaves `STIFFNESS`, `PRELOAD` and `IDLE_TORQUE`. What is
-        found is the same to the bit. `FREEDOM_ALONE` finds `BACKLASH`, `PRELOAD` and `IDLE_TORQUE`,
-        and asks the marked angles alone for an equilibrium under load.
+        found is the same to the bit. `FREEDOM_ALONE` finds `PRELOAD` and `IDLE_TORQUE`, and asks
+        those of the marked angles alone for an equilibrium under load at which parts are tight.
     values : array (9,)
         Out, in SI, in the order of the module's names: backlash and transmission error in rad,
         ripple and idle torque at the crank.
@@ -370,7 +376,15 @@ def solve_gearbox(
     """
     found, some = _with_errors(nominal, errors), np.flatnonzero(start.marked)
     count, discs, contacts = nominal.gaps.shape
-    solved = some if asked == FREEDOM_ALONE else np.arange(count)
+    tight = np.zeros(some.size, dtype=np.bool_)
+    if asked == FREEDOM_ALONE:
+        parts = _rigid_parts(nominal, found, errors)
+        stopped = _turned(parts, some, 1.0, start, np.empty(some.size), tight)
+        solved = some[tight]
+    else:
+        stopped, solved = -1, np.arange(count)
+    if stopped >= 0:
+        return stopped
     whole = room(solved.size, discs, contacts)
     stopped = _loaded(nominal, found, springs, load, start, shared, solved, whole)
     if stopped >= 0:
@@ -380,14 +394,14 @@ def solve_gearbox(
         if asked == LOADS_ALONE:
             return -1
         _swing(nominal, found, shared, springs.teeth, whole, values)
-    if asked == EVERYTHING:
-        stopped = _windup(nominal, found, springs, load, start, shared, whole, values)
-        if stopped >= 0:
+        if asked == EVERYTHING:
+            stopped = _windup(nominal, found, springs, load, start, shared, whole, values)
+            if stopped >= 0:
+                return stopped
+        parts = _rigid_parts(nominal, found, errors)
+        stopped = _free(parts, some, start, tight, values)
+        if stopped >= 0 or asked == RANKED_ALONE:
             return stopped
-    tight = np.zeros(some.size, dtype=np.bool_)
-    stopped = _free(nominal, found, start, errors, tight, values)
-    if stopped >= 0 or asked == RANKED_ALONE:
-        return stopped
     values[PRELOAD] = values[IDLE_TORQUE] = 0.0
     if np.any(tight):
         return _unloaded(nominal, found, springs, load, shared, some[tight], values)

@@ -6,7 +6,6 @@ import functools
 import math
 
 import numpy as np
-from scipy.optimize import brentq
 
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.design import Design
@@ -36,6 +35,7 @@ def lasting_pressure(design: Design) -> float:
         return 0.0
     if len(met) == 1:
         return limit * float(contact_cycle_factor(hours * met[0]))
+    from scipy.optimize import brentq
 
     def lacking(log: float) -> float:
         return math.log(hours * _worn_per_hour(limit, limit * math.exp(log), met, shares))

@@ -295,7 +295,7 @@ def run_ensemble(
 
 
 def _solves(ensemble: Ensemble) -> int:
-    """Equilibria under load of one gearbox."""
+    """Equilibria under load of one gearbox, at most."""
     marked = int(marked_angles(ensemble.design.reducer.ratio, ensemble.angles).sum())
     if ensemble.outputs == FREEDOM:
         return marked
