@@ -6,8 +6,9 @@ load that takes all of itself from the clamp. Symbols are theirs::
     F_M = nu R_p A_0/sqrt(1 + 3 (3/2 d_2/d_0 (P/(pi d_2) + 1.155 mu))^2)       the preload
     M_A = F_M (0.16 P + 0.58 d_2 mu + mu D_Km/2)                               its torque
     F_Z = f_Z/(delta_S + delta_P)                                              what embedding takes
-    F_th = l_K (alpha_P - alpha_S) dT/(delta_S + delta_P)                      what cold takes
+    F_th = l_K (alpha_P - alpha_S) dT/(delta_S + delta_P)                      cold takes, heat adds
     F_V = F_M/alpha_A - F_Z - F_th                                             what is left at least
+    s_B = sqrt(((F_M + F_th)/A_S)^2 + 3 (k_tau tau_M)^2)                       its stress in use
     F_mG = tau_B pi d m/P (P/2 + (d - D_2) tan 30 deg)                         what strips the nut
 """
 
@@ -28,6 +29,8 @@ TIGHTENING_FACTOR = 1.6
 EMBEDDING_ENDS, EMBEDDING_FACE = 6e-6, 2e-6
 """f_Z of thread and head together, and of every face between clamped parts, m: ground and turned
 faces under a transverse load (VDI 2230, table 5.4/1)."""
+TWIST_LEFT = 0.5
+"""k_tau: share of the torsion of tightening that is left in use (VDI 2230, eq. R8/4)."""
 TIGHTENED = 20.0
 """Temperature at which screws are tightened, deg C."""
 GRIP_FRICTION = 0.15
@@ -113,6 +116,15 @@ class Clamping:
         """Of the screw's tension at this preload, Pa."""
         return self.preload / self.thread.stress_area
 
+    def working_stress(self, warm: float) -> float:
+        """Von Mises stress of the screw where the joint is as warm as it gets (deg C), Pa.
+
+        At the greatest preload, and with what parts that grow by more than the screw add to it.
+        """
+        added = self._growth(max(warm - TIGHTENED, 0.0)) / self._new_resilience
+        twist = TWIST_LEFT * _twist(self.thread, FRICTION) * self.stress
+        return math.hypot(self.stress + added / self.thread.stress_area, math.sqrt(3.0) * twist)
+
     @property
     def stripping(self) -> float | None:
         """Force that strips the thread it is in, N; None where that is not judged."""
@@ -128,13 +140,20 @@ class Clamping:
         Where what is clamped shrinks by more than the screw, as aluminium does. Materials whose
         expansion is not known count as the screw's.
         """
-        tapped = self.screw if self.tapped is None else self.tapped
-        soft = self._resilience(self.clamped.youngs_modulus, tapped.youngs_modulus)
         lost = EMBEDDING_ENDS + EMBEDDING_FACE * self.faces
+        lost += self._growth(max(TIGHTENED - self.coldest, 0.0))
+        return max(self.preload / TIGHTENING_FACTOR - lost / self._new_resilience, 0.0)
+
+    def _growth(self, change: float) -> float:
+        """By how much more than the screw what is clamped grows over a change (K), m."""
         steel, other = self.screw.expansion or 0.0, self.clamped.expansion
-        more = 0.0 if other is None else max(other - steel, 0.0)
-        lost += self.grip * more * max(TIGHTENED - self.coldest, 0.0)
-        return max(self.preload / TIGHTENING_FACTOR - lost / soft, 0.0)
+        return self.grip * change * (0.0 if other is None else max(other - steel, 0.0))
+
+    @property
+    def _new_resilience(self) -> float:
+        """delta_S + delta_P of materials that have not crept, m/N."""
+        tapped = self.screw if self.tapped is None else self.tapped
+        return self._resilience(self.clamped.youngs_modulus, tapped.youngs_modulus)
 
     @property
     def held_preload(self) -> float | None:
@@ -145,11 +164,11 @@ class Clamping:
         Engineering, pseudo-elastic design).
         """
         tapped = self.screw if self.tapped is None else self.tapped
-        new = self._resilience(self.clamped.youngs_modulus, tapped.youngs_modulus)
         clamped_later, tapped_later = _lasting(self.clamped), _lasting(tapped)
         if clamped_later is None or tapped_later is None:
             return None
-        return self.least_preload * new / self._resilience(clamped_later, tapped_later)
+        later = self._resilience(clamped_later, tapped_later)
+        return self.least_preload * self._new_resilience / later
 
     @property
     def in_plastic(self) -> Material | None:
@@ -184,9 +203,14 @@ def preload_at_yield(thread: Thread, strength: float, friction: float = FRICTION
     >>> round(preload_at_yield(coarse_thread(10e-3), 0.9 * 640e6) / 1e3, 1)
     29.6
     """
-    d2, d0 = thread.pitch_diameter, thread.stress_diameter
-    twist = 1.5 * d2 / d0 * (thread.pitch / (math.pi * d2) + 1.155 * friction)
+    twist = _twist(thread, friction)
     return strength * thread.stress_area / math.sqrt(1.0 + 3.0 * twist**2)
+
+
+def _twist(thread: Thread, friction: float) -> float:
+    """Torsion of a screw that is tightened over its tension."""
+    d2, d0 = thread.pitch_diameter, thread.stress_diameter
+    return 1.5 * d2 / d0 * (thread.pitch / (math.pi * d2) + 1.155 * friction)
 
 
 def tightening_torque(

@@ -112,8 +112,8 @@ def read_duty(path: Path, columns: DutyColumns | None = None) -> DutyLog:
         When there is no such file, or it cannot be read.
     DesignError
         When it is no duty: a column or a unit missing, a cell that is no finite number, a time
-        that does not rise, a gap in even rows, fewer than two rows or too many, values no joint
-        has. The message names line and column.
+        that does not rise, a gap in even rows but for rest, fewer than two rows or too many,
+        values no joint has. The message names line and column.
     """
     asked = columns or DutyColumns()
     with open_regular_file(path) as stream:
@@ -387,7 +387,9 @@ def _judge(path: Path, log: DutyLog, columns: list[_Column]) -> None:
             "before; sort the rows by time"
         )
         raise DesignError(f"{path}, line {log.line(wrong)}: {fault}.")
-    gap = gap_in_even_rows(log.time, _EVEN_FROM)
+    rests = (log.torque == 0.0) & (log.speed == 0.0)
+    # Between two rows of rest there is rest.
+    gap = gap_in_even_rows(log.time, _EVEN_FROM, rests[1:] & rests[:-1])
     if gap is not None:
         raise DesignError(
             f"{path}, line {log.line(gap[0])}: a gap of {gap[1]:.6g} s in column '{heading}', "

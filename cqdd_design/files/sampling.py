@@ -21,11 +21,20 @@ def first_that_does_not_rise(times: NDArray[np.float64]) -> int | None:
     return int(wrong[0]) + 1 if wrong.size else None
 
 
-def gap_in_even_rows(times: NDArray[np.float64], least: int) -> tuple[int, float, float] | None:
+def gap_in_even_rows(
+    times: NDArray[np.float64], least: int, known: NDArray[np.bool_]
+) -> tuple[int, float, float] | None:
     """The longest gap of an even sampling: its end's place, its length, and the usual interval, s.
 
     None where rows are not evenly sampled, as corner points far apart are not, or fewer intervals
     than `least` tell that, or none of them is much longer.
+
+    Parameters
+    ----------
+    times : array (N,)
+        Rising, s.
+    known : array (N - 1,)
+        Which intervals need no rows, as their ends tell all.
     """
     import numpy as np
 
@@ -34,7 +43,7 @@ def gap_in_even_rows(times: NDArray[np.float64], least: int) -> tuple[int, float
         return None
     usual = float(np.median(between))
     even = float(np.mean(np.abs(between - usual) <= _EQUAL * usual))
-    longest = int(np.argmax(between))
-    if even < _UNIFORM or between[longest] <= _GAP * usual:
+    longest = int(np.argmax(np.where(known, 0.0, between)))
+    if even < _UNIFORM or known[longest] or between[longest] <= _GAP * usual:
         return None
     return longest + 1, float(between[longest]), usual

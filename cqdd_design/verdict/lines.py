@@ -61,7 +61,7 @@ def lines_without_drawn(evidence: Evidence) -> tuple[Check, ...]:
         *rotor_lines(machine),
         *joint_lines(machine, evidence.temperatures),
         *cam_lines(machine, evidence.temperatures),
-        *screw_lines(machine),
+        *screw_lines(machine, evidence.temperatures),
         *retention_lines(machine, evidence.temperatures),
         *rubbing_lines(machine),
     )

@@ -4,37 +4,56 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from cqdd_design.catalog.tightening import torque_words
+from cqdd_design.catalog.tightening import TIGHTENED, torque_words
 from cqdd_design.design.requirements import EXTERNAL_LOADS
 from cqdd_design.errors import CatalogError, ContactError, GeometryError
-from cqdd_design.gearbox.checks.allowables import SLIP_SAFETY, THREAD_SAFETY, screw_limit
+from cqdd_design.gearbox.checks.allowables import (
+    SLIP_SAFETY,
+    THREAD_SAFETY,
+    screw_limit,
+    warm_screw_limit,
+)
+from cqdd_design.gearbox.checks.guide_row import NETWORK
 from cqdd_design.gearbox.checks.remedies import lower_outside, lower_peak
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.machine import Machine
 from cqdd_design.machine.cures import ROUGHLY, torques_that_hold
+from cqdd_design.machine.heat_nodes import Node
 from cqdd_design.machine.screws import ScrewJoint, screw_joints
+from cqdd_design.machine.temperatures import MachineTemperatures
 from cqdd_design.results import Check
 from cqdd_design.solids.tool_access import tool_access
 
 _MEGA = 1e6
 _ENDLESS = 1e3
 """Safety of a joint that nothing parts."""
+_CLAMPED: tuple[Node, ...] = ("cover", "housing", "ring", "carrier")
+"""What screws hold together: the warmest counts."""
 _LINES = ("SCREW-SLIP", "SCREW-PRELOAD", "SCREW-THREAD")
 
 
-def screw_lines(machine: Machine) -> tuple[Check, ...]:
-    """Every screwed joint at the peak torque and the external loads of the requirements."""
-    return (*_loaded(machine), _tools(machine))
+def screw_lines(
+    machine: Machine, temperatures: MachineTemperatures | None = None
+) -> tuple[Check, ...]:
+    """Every screwed joint at the peak torque and the external loads of the requirements.
+
+    Parameters
+    ----------
+    temperatures : MachineTemperatures, optional
+        Where they are not known, screws are judged as they are tightened.
+    """
+    warm = TIGHTENED if temperatures is None else max(map(temperatures.hottest, _CLAMPED))
+    return (*_loaded(machine, warm), _tools(machine))
 
 
-def _loaded(machine: Machine) -> tuple[Check, ...]:
+def _loaded(machine: Machine, warm: float) -> tuple[Check, ...]:
     try:
         every = screw_joints(machine)
     except (CatalogError, ContactError, GeometryError) as error:
         return tuple(
             build_check(one, None, None, error.message, "see why it is not known") for one in _LINES
         )
-    return (_cured(machine, _slip(every)), _preload(every), _thread(every))
+    return (_cured(machine, _slip(every)), _preload(every, warm), _thread(every))
 
 
 def _cured(machine: Machine, slip: Check) -> Check:
@@ -83,22 +102,35 @@ def _slip(every: tuple[ScrewJoint, ...]) -> Check:
     )
 
 
-def _preload(every: tuple[ScrewJoint, ...]) -> Check:
-    limits = {one.place: screw_limit(one.clamping.screw) for one in every}
-    worst = max(every, key=lambda one: one.clamping.stress / max(limits[one.place].value, 1.0))
+def _preload(every: tuple[ScrewJoint, ...], warm: float) -> Check:
+    """As they are tightened, and where joints are warm, whichever is nearer to its limit."""
+    tight = [(one.clamping.stress, screw_limit(one.clamping.screw), one) for one in every]
+    used = [
+        (one.clamping.working_stress(warm), warm_screw_limit(one.clamping.screw), one)
+        for one in every
+    ]
+    stress, allowed, worst = max((*tight, *used), key=lambda row: row[0] / max(row[1].value, 1.0))
     told = "; ".join(
         f"{one.place}: {one.count} {one.screw} at {_torque(one)}, {one.clamping.preload:.0f} N"
         for one in every
     )
-    allowed = limits[worst.place]
+    hottest = (stress, allowed, worst) in used
+    if hottest:
+        told = f"in use at {warm:.0f} degC, of {worst.place}; {told}"
     return build_check(
         "SCREW-PRELOAD",
-        worst.clamping.stress / _MEGA,
+        stress / _MEGA,
         allowed.value / _MEGA if allowed.value else None,
         told,
-        "take screws of a known strength",
+        _COOLER if hottest else "take screws of a known strength",
         basis=allowed.basis,
+        model=NETWORK if hottest else "",
     )
+
+
+_COOLER = (
+    "keep the joint cooler, see THERMAL-RISE, or take a metal that grows less under the screws"
+)
 
 
 def _torque(one: ScrewJoint) -> str:

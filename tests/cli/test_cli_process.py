@@ -231,10 +231,11 @@ print("LOADED", *loaded, file=sys.stderr)
 
 def test_the_screen_alone_imports_no_model_of_a_verdict(python, tmp_path):
     """They take as long to come as it takes to look."""
+    given = ["size", "--ratio", "10", "--quick", "--out", str(tmp_path / "q.toml")]
     done = python(
         f"""
 import sys
-sys.argv = ["cqdd-design", "size", "--ratio", "10", "--quick", "--out", {str(tmp_path / "q.toml")!r}]
+sys.argv = ["cqdd-design", *{given!r}]
 from cqdd_design.__main__ import main
 try:
     main()

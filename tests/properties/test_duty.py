@@ -118,6 +118,18 @@ def test_what_is_no_duty_is_a_sentence_with_line_and_column(tmp_path, text, says
     assert "\n" not in caught.value.message
 
 
+def test_rest_between_two_rows_of_rest_is_no_gap(tmp_path):
+    work = "".join(f"{k / 10},{k % 3},2\n" for k in range(40))
+    log = read_duty(written(tmp_path, f"{HEAD}\n{work}4,0,0\n64,0,0\n"))
+    assert log.weights[-2:].sum() == pytest.approx(60.05)
+    for ends in ("4,0,0\n64,0,1\n", "4,1,0\n64,0,0\n"):
+        with pytest.raises(DesignError, match="a gap of 60 s"):
+            read_duty(written(tmp_path, f"{HEAD}\n{work}{ends}"))
+    # Another gap beside it is one.
+    with pytest.raises(DesignError, match="line 45: a gap of 9 s"):
+        read_duty(written(tmp_path, f"{HEAD}\n{work}4,0,0\n64,0,0\n64.1,1,2\n73.1,1,2\n"))
+
+
 def test_an_empty_cell_at_the_end_of_lines_is_none(tmp_path):
     assert read_duty(written(tmp_path, f"{HEAD}\n0,1,2,\n1,1,2,\n")).rows == 2
     quoted = f'{HEAD},note\n0,1,2,"a, b"\n1,1,2,""\n'

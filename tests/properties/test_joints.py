@@ -255,6 +255,46 @@ def test_screws_of_a_machine_are_judged_at_its_coldest(machine: Machine) -> None
         assert replace(one.clamping, coldest=-40.0).least_preload <= one.clamping.least_preload
 
 
+def test_warm_aluminium_stretches_its_screws() -> None:
+    cold = M4.working_stress(20.0)
+    # Half of the torsion is left: VDI 2230 has 0.9 S_y of tension and all of it.
+    assert M4.stress < cold < 0.9 * (SCREW.yield_strength or 0.0)
+    all_of_it = math.hypot(M4.stress, 2.0 * math.sqrt(cold**2 - M4.stress**2))
+    assert all_of_it == pytest.approx(0.9 * (SCREW.yield_strength or 0.0))
+    assert M4.working_stress(-10.0) == cold
+    grown = (LIGHT.expansion or 0.0) - (SCREW.expansion or 0.0)
+    # Forces by which the joint yields to its own embedding tell how soft it is.
+    soft = (6e-6 + 2e-6 * M4.faces) / (M4.preload / 1.6 - M4.least_preload)
+    added = 8e-3 * grown * 80.0 / soft / M4.thread.stress_area
+    warm = math.sqrt(M4.working_stress(100.0) ** 2 - (cold**2 - M4.stress**2))
+    assert warm == pytest.approx(M4.stress + added)
+    steel = find_material("AISI 4140 Q&T 540C")
+    alike = replace(M4, clamped=steel, tapped=steel)
+    assert alike.working_stress(100.0) == pytest.approx(alike.working_stress(20.0), rel=5e-3)
+
+
+def test_screws_are_judged_as_warm_as_what_they_hold(machine: Machine) -> None:
+    class Warm:
+        def __init__(self, most: float) -> None:
+            self.most = most
+
+        def hottest(self, node: str) -> float:
+            return self.most if node in {"housing", "carrier"} else 20.0
+
+    def line(most: float) -> Check:
+        every = screw_lines(machine, Warm(most))  # type: ignore[arg-type]
+        return next(one for one in every if one.id == "SCREW-PRELOAD")
+
+    room = next(one for one in screw_lines(machine) if one.id == "SCREW-PRELOAD")
+    assert line(40.0) == room
+    assert "limit: 0.88 S_y" in room.source
+    hot, hotter = line(150.0), line(250.0)
+    assert (hot.status, hotter.status) == ("pass", "fail")
+    assert hot.margin < room.margin
+    assert "in use at 250 degC" in hotter.substituted
+    assert "cooler" in hotter.remedy
+
+
 def test_preload_that_cold_takes_whole_asks_for_another_material(machine: Machine) -> None:
     """Less force on the joint would not help it."""
     moulded = {"housing.material": "POM (acetal)"}

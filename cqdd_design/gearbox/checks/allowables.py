@@ -407,6 +407,14 @@ def screw_limit(material: Material) -> Allowable:
     )
 
 
+def warm_screw_limit(material: Material) -> Allowable:
+    """Von Mises stress of a screw in use, where its joint is warm: S_y (VDI 2230, eq. R8/5)."""
+    strength = material.yield_strength
+    if strength is None:
+        return Allowable(0.0, f"no yield strength in the catalogue for {material.name}")
+    return Allowable(strength, f"S_y {strength / 1e6:.0f} MPa ({material.name})")
+
+
 # Bell -----------------------------------------------------------------------------------------
 BOND_SAFETY = SAFETY
 """On the strength of a retaining compound, which layouts of the bell's hub take too."""

@@ -306,9 +306,7 @@ def _with_errors(nominal: Nominal, errors: GearboxErrors) -> Toleranced:
 
 
 @part()
-def _turned(
-    parts: RigidParts, some: Any, sense: float, start: Start, ends: Any, tight: Any
-) -> int:
+def _turned(parts: RigidParts, some: Any, sense: float, start: Start, ends: Any, tight: Any) -> int:
     """How far the output turns by next to nothing, and at which angles parts are `tight`.
 
     -1, or a failing angle.

@@ -73,9 +73,9 @@ _FILM_ANGLES = 24
 _TURN = 1000
 """About so many crank angles of the output turn for each gearbox."""
 PER_TOOTH = 8, 2
-"""Most and fewest of them to a tooth. Of sixteen, eight lose 0.2 to 0.3 % of the greatest pressure at
-the continuous torque and 0.1 % at the peak, four 0.7 to 1.1 and 0.1 to 0.4, two 2 and 0.3 to 1 %;
-of the transmission error 0.5, 1.5 and 5 % (means of 64 gearboxes, ratios 8 to 15)."""
+"""Most and fewest of them to a tooth. Against sixteen, eight lose 0.2 to 0.3 % of the greatest
+pressure at the continuous torque and 0.1 % at the peak, four 0.7 to 1.1 and 0.1 to 0.4 %, two 2 %
+and up to 1; of the transmission error 0.5, 1.5 and 5 % (means of 64 gearboxes, ratios 8 to 15)."""
 _COARSE = 200
 """About so many of the angles serve backlash, stiffness and what turns the gearbox unloaded: a
 hundred would lose a fifth of the torque that turns the tightest (ratio 10)."""
