@@ -336,6 +336,18 @@ def test_space_that_nobody_stated_only_warns_as_the_guide_says() -> None:
     assert "requirements.outer_diameter" in CHECK_GUIDE["SPACE-DIAMETER"].exception
 
 
+def test_a_ring_too_large_for_the_motor_is_made_smaller_where_its_wall_allows_it() -> None:
+    wide = {"reducer.ring.outer_diameter": "78 mm"}
+    thick = changed(wide)["MOTOR-BORE"]
+    told = re.search(r"lower ring.outer_diameter to ([\d.]+) mm", thick.remedy)
+    assert told is not None
+    smaller = changed({"reducer.ring.outer_diameter": f"{told[1]} mm"})
+    assert smaller["MOTOR-BORE"].status == smaller["GEO-RING-WALL"].status == "pass"
+    pitch = SOUND.reducer.ring_pitch_radius + 2e-3
+    thin = changed(wide | {"reducer.ring_pitch_radius": pitch})["MOTOR-BORE"]
+    assert thin.remedy.startswith("take a motor with a larger bore")
+
+
 def test_thicker_pins_named_by_the_remedy_pass_in_bending() -> None:
     steel = {"reducer.output_pins.material": "Alloy steel 12.9 (ISO 7379)"}
     check = changed(steel, PAPER)["PIN-BENDING-PEAK"]

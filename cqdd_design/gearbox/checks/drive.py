@@ -186,12 +186,13 @@ def _speed(state: GearboxState, motor: Motor, constant: float) -> Check:
 def _bore(state: GearboxState, motor: Motor, bore: float) -> Check:
     outer, most = state.design.reducer.ring.outer_diameter, largest_ring(bore)
     note = f" ({motor.bore_note})" if motor.bore_note else ""
+    walled = most >= 2.0 * (state.geometry.ring_root_radius + allowables.RING_WALL)
+    smaller = f"lower ring.outer_diameter to {most * 1e3:.4g} mm, or " if walled else ""
     return _make(
         state,
         "MOTOR-BORE",
         outer * 1e3,
         most * 1e3,
         f"ring {outer * 1e3:.4g} mm, stator bore {bore * 1e3:.4g} mm{note}",
-        f"lower ring.outer_diameter to {most * 1e3:.4g} mm, or take a motor with a larger bore; "
-        "else it stands behind the gearbox",
+        f"{smaller}take a motor with a larger bore; else it stands behind the gearbox",
     )
