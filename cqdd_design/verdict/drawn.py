@@ -252,12 +252,18 @@ def yield_line(machine: Machine, drawn: Drawn | None, why: str, lines: Sequence[
             "degC"
         )
     worst = max(fails, key=lambda name: fails[name])
+    cases = machine.design.requirements.load_cases
+    less = {
+        "life": f"{'a gentler duty' if cases else 'less continuous torque'}, or a shorter life",
+        "peak": "less peak torque",
+    }
+    last = worst.rpartition(" ")[2]
     return build_check(
         "YIELD",
         100.0 * len(good) / count,
         limit,
         f"{len(good)} of {count} gearboxes" + (f"; {', '.join(told)}" if told else ""),
-        _CURES[worst.partition(" ")[0]],
+        _CURES[worst.partition(" ")[0]] + (f"; or ask for {less[last]}" if last in less else ""),
     )
 
 

@@ -459,6 +459,17 @@ def test_a_gearbox_counts_where_it_does_not_bind_and_stays_within_limits(
     count = len(drawn.continuous.values) + drawn.continuous.lost
     assert whole is not None
     assert less == pytest.approx(whole * count / (len(drawn.continuous.values) + SAMPLES))
+    strong = {"CONTACT-RING-CONTINUOUS": 1e3, "CONTACT-RING-PEAK": 1e3, "BEARING-LIFE": 1e9}
+    for name, words in (
+        (
+            "",
+            "give modification.equidistant and hole_clearance some um more, or closer [tolerances]",
+        ),
+        ("CONTACT-RING-PEAK", "; or ask for less peak torque"),
+        ("BEARING-LIFE", "; or ask for less continuous torque, or a shorter life"),
+    ):
+        told = yield_line(machine, drawn, "", with_margin(strong | {name: 0.1})).remedy
+        assert told.endswith(words)
     unsure = tuple(
         replace(one, value=None) if one.id == "CONTACT-RING-PEAK" else one for one in lines
     )
