@@ -158,6 +158,9 @@ class Hunt:
         Whether output pins that are tried are on needles.
     too_warm : set of str
         Cam bearings that are not tried, as the best with them loses too much.
+    loose : set of str
+        Cam bearings in which the shaft was too thin for its bond with the bell: since then none as
+        narrow is tried, with which a cooler gearbox might have done.
     tried : set of Goal
         Goals that were taken to meet something that is asked for, and those left for them.
     sturdier : float
@@ -224,6 +227,7 @@ class Hunt:
     thicker: tuple[float, float] | None = None
     pins: tuple[bool, ...] = (False,)
     too_warm: set[str] = field(default_factory=set)
+    loose: set[str] = field(default_factory=set)
     tried: set[Goal] = field(default_factory=set)
     sturdier: float = 1.0
     held_up_to: float = 0.0

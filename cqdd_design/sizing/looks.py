@@ -235,6 +235,7 @@ def loosened(hunt: Hunt, found: Found, machine: Machine) -> bool:
     too_hot = any(one.id == HOT and one.known and not one.satisfied for one in lines)
     if line.status != "fail" or too_hot:
         return False
+    hunt.loose.add(found.cam)
     stronger_shaft(hunt, found, (line,))
     return True
 

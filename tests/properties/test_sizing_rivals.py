@@ -11,7 +11,7 @@ from cqdd_design.design import requirements_from_mapping
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.sizing import rivals
 from cqdd_design.sizing.no_nearer import size_or_refuse
-from cqdd_design.sizing.rivals import _figure, _may_be_better, or_better
+from cqdd_design.sizing.rivals import _figure, _ways, or_better
 from cqdd_design.sizing.verified import _too_heavy, new_hunt, searched
 
 ROAD = "cqdd_design.sizing.verified."
@@ -160,21 +160,31 @@ def test_a_rival_holds_as_much_for_ever(searches: list[Any]) -> None:
 
 
 def test_other_goals_always_have_rivals() -> None:
-    first = design(0.25, goal="inertia")
-    assert _may_be_better(hunt_that_hoped(0.25), first, "inertia")
-    assert not _may_be_better(hunt_that_hoped(0.25), design(0.25), "mass")
-    asked = requirements_from_mapping(ASKED)
     ways = {
-        goal: [one.goal for one in rivals._others(hunt_that_hoped(1.0), asked, goal)]
+        goal: _ways(hunt_that_hoped(0.25), design(0.25, goal=goal), goal)
         for goal in ("mass", "inertia", "backlash", "efficiency", "size")
     }
     assert ways == {
-        "mass": ["backlash", "mass"],
-        "inertia": ["backlash", "size"],
-        "backlash": ["size"],
-        "efficiency": ["backlash", "size"],
-        "size": ["backlash"],
+        "mass": (),
+        "inertia": ("backlash", "size"),
+        "backlash": ("size",),
+        "efficiency": ("backlash", "size"),
+        "size": ("backlash",),
     }
+
+
+def test_where_narrow_bearings_were_left_out_they_are_looked_for_without_the_loose_one(
+    searches: list[Any],
+) -> None:
+    """A cooler gearbox may hold its bell on as thin a shaft."""
+    hunt, requirements = hunt_that_hoped(0.3), requirements_from_mapping(ASKED)
+    first = design(0.33)
+    assert or_better(hunt, first, requirements, "mass") is first
+    assert not searches
+    hunt.loose.add("6902")
+    assert _ways(hunt, design(0.31), "mass") == ()
+    or_better(hunt, first, requirements, "mass")
+    assert [(one.goal, one.too_warm) for one in searches] == [("mass", {"6902"})]
 
 
 def test_less_of_every_figure_is_better() -> None:

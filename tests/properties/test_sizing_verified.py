@@ -650,6 +650,7 @@ def test_a_design_is_looked_at_with_what_it_was_found_to_ask_for(
         hunt.least_bore = 0.0
         assert learn(hunt, light) == wider
         assert (hunt.least_bore > light.sized.machine.cam.bore_diameter) == wider
+        assert hunt.loose == ({light.cam} if wider else set())
 
 
 @pytest.mark.deep
