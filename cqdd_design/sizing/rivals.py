@@ -2,9 +2,10 @@
 
 What part errors and heat ask for hangs on the designs that are looked at, and one search keeps what
 it has learnt of a cam bearing for the designs with it that come after. So where a search ends far
-from what it began with, or with another goal, others begin anew: for the least play or the smallest
-pack, which lead to sturdy designs, or for the first that is sound. What they find is held against
-the one that there is by what the whole verdict says of both.
+from what it began with, or with another goal, or has left out narrow cam bearings, others begin
+anew: for the least play or the smallest pack, which lead to sturdy designs, or for the first that
+is sound. What they find is held against the one that there is by what the whole verdict says of
+both.
 """
 
 from __future__ import annotations
