@@ -64,7 +64,7 @@ FREEDOM: tuple[str, ...] = (
     "preload_force_max_N",
     "unloaded_torque_Nm",
 )
-"""Of the outputs, how freely a gearbox turns without load, in a third of the time or less."""
+"""Of the outputs, how freely a gearbox turns without load, in half of the time or less."""
 
 _ARCMIN = math.degrees(1.0) * 60.0
 
