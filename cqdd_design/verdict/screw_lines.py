@@ -110,18 +110,16 @@ def _preload(every: tuple[ScrewJoint, ...], warm: float) -> Check:
         for one in every
     ]
     stress, allowed, worst = max((*tight, *used), key=lambda row: row[0] / max(row[1].value, 1.0))
+    hottest = (stress, allowed, worst) in used
     told = "; ".join(
         f"{one.place}: {one.count} {one.screw} at {_torque(one)}, {one.clamping.preload:.0f} N"
-        for one in every
+        for one in ((worst,) if hottest else every)
     )
-    hottest = (stress, allowed, worst) in used
-    if hottest:
-        told = f"in use at {warm:.0f} degC, of {worst.place}; {told}"
     return build_check(
         "SCREW-PRELOAD",
         stress / _MEGA,
         allowed.value / _MEGA if allowed.value else None,
-        told,
+        f"{told}, in use at {warm:.0f} degC" if hottest else told,
         _COOLER if hottest else "take screws of a known strength",
         basis=allowed.basis,
         model=NETWORK if hottest else "",

@@ -85,14 +85,14 @@ ROWS = (
     ),
     CheckGuide(
         "SCREW-PRELOAD",
-        "Tension of screws at the stated tightening torque, or their stress in use",
+        "Screws, tension as they are tightened or stress in use",
         "MPa",
         "max",
         f"F_M/A_S <= {limits.PROOF_SHARE:g} S_y; F_M = what {UTILISATION:g} S_y in tension and "
         "torsion, the seat of the head at its S_y and the thread all bear, in plastics of known "
         "creep for long; in use sqrt(((F_M + F_th)/A_S)^2 + 3 (tau_M/2)^2) <= S_y",
-        "More torque gains nothing: screw, seat or thread yields. Less lets the joint slip. Where "
-        "a joint is warm, aluminium that grows by more than its screws stretches them.",
+        "More torque gains nothing: screw, seat or thread yields. Less lets the joint slip. Warm "
+        "aluminium stretches its screws.",
         f"{_VDI}, table A1, eq. R8/4; ISO 898-1",
     ),
     CheckGuide(
