@@ -249,7 +249,8 @@ def test_what_yields_is_noted_as_a_share_of_what_does_not() -> None:
     assert hunt.yielding is None
     calibrate(hunt, machine, drawn)  # type: ignore[arg-type]
     assert hunt.yielding is not None
-    assert [one.tolist() for one in hunt.yielding] == [[1.5, 0.75], [3.0, 6.0]]
+    # Of what no rigid one has, nothing is known.
+    assert [one.tolist() for one in hunt.yielding] == [[1.5, 0.75], [3.0, 1.0]]
     assert hunt.yielding_at == (6e-3, 30.0, 4.0)
 
 
