@@ -10,6 +10,7 @@ import pytest
 from cqdd_design.design import requirements_from_mapping
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.sizing import rivals
+from cqdd_design.sizing.looks import loosened
 from cqdd_design.sizing.no_nearer import size_or_refuse
 from cqdd_design.sizing.rivals import _figure, _ways, or_better
 from cqdd_design.sizing.verified import _too_heavy, new_hunt, searched
@@ -185,6 +186,18 @@ def test_where_narrow_bearings_were_left_out_they_are_looked_for_without_the_loo
     assert _ways(hunt, design(0.31), "mass") == ()
     or_better(hunt, first, requirements, "mass")
     assert [(one.goal, one.too_warm) for one in searches] == [("mass", {"6902"})]
+
+
+def test_a_bearing_in_which_a_bell_came_loose_is_noted(monkeypatch: pytest.MonkeyPatch) -> None:
+    looks = "cqdd_design.sizing.looks."
+    monkeypatch.setattr(looks + "judged_temperatures", lambda _: (None, (), None))
+    monkeypatch.setattr(looks + "stronger_shaft", lambda *_: None)
+    hunt, found = hunt_that_hoped(0.3), SimpleNamespace(cam="6902")
+    for status, noted in (("pass", set()), ("fail", {"6902"})):
+        line = SimpleNamespace(status=status)
+        monkeypatch.setattr(looks + "bell_line", lambda *_, line=line: line)
+        assert loosened(hunt, found, SimpleNamespace()) == bool(noted)  # type: ignore[arg-type]
+        assert hunt.loose == noted
 
 
 def test_less_of_every_figure_is_better() -> None:
