@@ -7,12 +7,7 @@ from dataclasses import replace
 from cqdd_design.catalog.tightening import TIGHTENED, torque_words
 from cqdd_design.design.requirements import EXTERNAL_LOADS
 from cqdd_design.errors import CatalogError, ContactError, GeometryError
-from cqdd_design.gearbox.checks.allowables import (
-    SLIP_SAFETY,
-    THREAD_SAFETY,
-    screw_limit,
-    warm_screw_limit,
-)
+from cqdd_design.gearbox.checks.allowables import SLIP_SAFETY, THREAD_SAFETY, screw_limit
 from cqdd_design.gearbox.checks.guide_row import NETWORK
 from cqdd_design.gearbox.checks.remedies import lower_outside, lower_peak
 from cqdd_design.gearbox.checks.state import build_check
@@ -106,7 +101,7 @@ def _preload(every: tuple[ScrewJoint, ...], warm: float) -> Check:
     """As they are tightened, and where joints are warm, whichever is nearer to its limit."""
     tight = [(one.clamping.stress, screw_limit(one.clamping.screw), one) for one in every]
     used = [
-        (one.clamping.working_stress(warm), warm_screw_limit(one.clamping.screw), one)
+        (one.clamping.working_stress(warm), screw_limit(one.clamping.screw, 1.0), one)
         for one in every
     ]
     stress, allowed, worst = max((*tight, *used), key=lambda row: row[0] / max(row[1].value, 1.0))

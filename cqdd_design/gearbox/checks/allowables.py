@@ -390,8 +390,8 @@ PROOF_SHARE = 0.88
 """Proof stress over yield strength of class 12.9, 970 of 1100 MPa (ISO 898-1, table 3)."""
 
 
-def screw_limit(material: Material) -> Allowable:
-    """Tension of a screw at its greatest preload.
+def screw_limit(material: Material, share: float = PROOF_SHARE) -> Allowable:
+    """Tension of a screw at its greatest preload; by a share of 1, its stress in use (VDI 2230).
 
     Examples
     --------
@@ -402,17 +402,7 @@ def screw_limit(material: Material) -> Allowable:
     strength = material.yield_strength
     if strength is None:
         return Allowable(0.0, f"no yield strength in the catalogue for {material.name}")
-    return Allowable(
-        PROOF_SHARE * strength, f"{PROOF_SHARE:g} S_y {strength / 1e6:.0f} MPa ({material.name})"
-    )
-
-
-def warm_screw_limit(material: Material) -> Allowable:
-    """Von Mises stress of a screw in use, where its joint is warm: S_y (VDI 2230, eq. R8/5)."""
-    strength = material.yield_strength
-    if strength is None:
-        return Allowable(0.0, f"no yield strength in the catalogue for {material.name}")
-    return Allowable(strength, f"S_y {strength / 1e6:.0f} MPa ({material.name})")
+    return Allowable(share * strength, f"{share:g} S_y {strength / 1e6:.0f} MPa ({material.name})")
 
 
 # Bell -----------------------------------------------------------------------------------------
