@@ -39,9 +39,10 @@ _STEPS = 60
 _HALVINGS = 12
 _GOOD = 1e-11
 _NEARLY = 1e-2
-_SQUARE = 3e-9
-"""Square of a step, in shares of the greatest force, below which forces follow in first order:
-a line contact's own curve, F^0.9, leaves a twentieth of it."""
+EXACTLY, DRAWN = 3e-9, 1e-6
+"""Square of a step, in shares of the greatest force, below which forces follow in first order: a
+line contact's own curve, F^0.9, leaves a twentieth of it. The latter for gearboxes that are drawn
+from tolerances, of which 5e-8 of a force is more than anyone reads."""
 _UNLOADED = 1e-12
 """Approach, m, whose force is next to none: without load parts that touch nothing have no force
 that others could be held against."""
@@ -71,9 +72,9 @@ def _lacking(work: YieldingWork, stiffness: float) -> tuple[float, float]:
 
 @part(borrows=True, forceinline=True)
 def _within_first_order(
-    contacts: Contacts, springs: Springs, u: Any, approach: Any, work: YieldingWork, scale: float
+    contacts: Contacts, springs: Springs, u: Any, approach: Any, work: YieldingWork, most: float
 ) -> bool:
-    """Whether the step neither opens nor closes a contact, nor changes a force by its square."""
+    """Whether the step opens and closes no contact, and its square changes a force by `most`."""
     change, stiff, step = work.change, work.stiff, work.step
     offset, half_play = contacts.offset, contacts.half_play
     discs, count = approach.shape
@@ -83,7 +84,7 @@ def _within_first_order(
             if a <= 0.0:
                 if a + moved > 0.0:
                     return False
-            elif stiff[d, k] * moved * moved > _SQUARE * scale * a or a + moved <= 0.0:
+            elif stiff[d, k] * moved * moved > most * a or a + moved <= 0.0:
                 return False
         i = 4 + 3 * d
         rx, ry = u[i] - offset[d, 0], u[i + 1] - offset[d, 1]
@@ -92,7 +93,7 @@ def _within_first_order(
         moved = step[i] * step[i] + step[i + 1] * step[i + 1]
         if over > 0.0:
             f, s = radial_force(springs.cam_stiffness, springs.cam_exponent, over)
-            if (s / over + f / (rho * over)) * moved > 0.1 * _SQUARE * scale:
+            if (s / over + f / (rho * over)) * moved > 0.1 * most:
                 return False
         elif math.sqrt(moved) >= -over:
             return False
@@ -142,10 +143,12 @@ def solve_yielding(
     forces: Forces,
     work: YieldingWork,
     held: float,
+    curve: float,
 ) -> tuple[int, int, float]:
     """Find the equilibrium near `u` and `approach`, and into them.
 
-    Returns are those of :func:`.equilibrium_kernel.solve_state`; `held` is one of `RIDGES`.
+    Returns are those of :func:`.equilibrium_kernel.solve_state`; `held` is one of `RIDGES`, and
+    `curve` is `EXACTLY` or `DRAWN`.
     """
     ridge = held * load.scale_stiffness
     torsional, previous = 0.0, np.inf
@@ -188,7 +191,7 @@ def solve_yielding(
                 or residual <= _GOOD * scale
                 or (
                     residual <= _NEARLY * scale
-                    and _within_first_order(contacts, springs, u, approach, work, scale)
+                    and _within_first_order(contacts, springs, u, approach, work, curve * scale)
                 )
             ):
                 _take_step(contacts, springs, u, approach, forces, work)
@@ -261,7 +264,7 @@ def _raise(
         put(u, known)
         put_rows(approach, known_approach)
         status, used, torsional = solve_yielding(
-            contacts, springs, load, rubs, some, u, approach, forces, work, held
+            contacts, springs, load, rubs, some, u, approach, forces, work, held, EXACTLY
         )
         steps += used
         if status == CONVERGED:

@@ -1,6 +1,6 @@
 """Compiled equilibria of contacts with bodies that yield, plate and cap apart, over crank angle.
 
-Approaches change smoothly over crank angle, open ones too, so that a state found from the three
+Approaches change smoothly over crank angle, open ones too, so that a state found from a few
 before it starts near its end with the right contacts. The equilibrium of one state is
 :mod:`.compliant_newton_kernel`.
 """
@@ -18,6 +18,7 @@ from cqdd_design.gearbox.contact.compliant_kernel import (
     yielding_work,
 )
 from cqdd_design.gearbox.contact.compliant_newton_kernel import (
+    EXACTLY,
     RIDGES,
     solve_yielding,
     solve_yielding_from,
@@ -36,8 +37,9 @@ from cqdd_design.gearbox.contact.sweep_kernel import contacts_at
 
 _NEAR = 0.2
 """Turn of the crank, rad, beyond which the state before is the best start."""
-_POINTS = 3
-"""States before an angle from which it is predicted."""
+PERFECT, TOLERANCED = 3, 2
+"""States before an angle from which it is predicted: those of parts with errors bend more from one
+angle to the next, and a parabola through them leads further away than a line."""
 
 
 @part(forceinline=True)
@@ -47,8 +49,8 @@ def rubbing_at(rubbing: Rubbing, a: int) -> Rubbing:
 
 
 @part(borrows=True, forceinline=True)
-def predict_yielding(result: YieldingResult, turns: Any, a: int) -> None:
-    """Start for angle `a` from up to four before it, by Lagrange's polynomial through them.
+def predict_yielding(result: YieldingResult, turns: Any, a: int, points: int) -> None:
+    """Start for angle `a` from up to `points` before it, by Lagrange's polynomial through them.
 
     Disc centres are carried round with the crank, in whose frame they hardly move. Angles that are
     far apart, or not about even, give the state before.
@@ -58,7 +60,7 @@ def predict_yielding(result: YieldingResult, turns: Any, a: int) -> None:
     turn = turns[a]
     known = 1
     if abs(turn) < _NEAR:
-        while known < min(a, _POINTS) and 0.5 < turns[a - known] / turn < 2.0:
+        while known < min(a, points) and 0.5 < turns[a - known] / turn < 2.0:
             known += 1
     state[:] = 0.0
     closed[:] = 0.0
@@ -133,9 +135,9 @@ def yield_sweep(
         state, approach = result.states[a], result.approach[a]
         status, used, left = NOT_CONVERGED, 0, 0.0
         if a > 0:
-            predict_yielding(result, turns, a)
+            predict_yielding(result, turns, a, PERFECT)
             status, used, left = solve_yielding(
-                here, springs, load, rubs, some, state, approach, forces, work, RIDGES[0]
+                here, springs, load, rubs, some, state, approach, forces, work, RIDGES[0], EXACTLY
             )
         if status != CONVERGED:
             status, used, left = solve_yielding_from(

@@ -10,11 +10,13 @@ from cqdd_design.files.kernel_arrays import put, put_rows
 from cqdd_design.files.kernel_part import part
 from cqdd_design.gearbox.contact.compliant_kernel import yielding_work
 from cqdd_design.gearbox.contact.compliant_newton_kernel import (
+    DRAWN,
     RIDGES,
     solve_yielding,
     solve_yielding_from,
 )
 from cqdd_design.gearbox.contact.compliant_sweep_kernel import (
+    TOLERANCED,
     compliance_at,
     predict_yielding,
     rubbing_at,
@@ -74,12 +76,12 @@ def follow(
             put(state, near.states[a])
             put_rows(approach, near.approach[a])
             status, used, left = solve_yielding(
-                here, springs, load, rubs, some, state, approach, forces, work, RIDGES[0]
+                here, springs, load, rubs, some, state, approach, forces, work, RIDGES[0], DRAWN
             )
         if status != CONVERGED and b > 0:
-            predict_yielding(result, turns, b)
+            predict_yielding(result, turns, b, TOLERANCED)
             status, used, left = solve_yielding(
-                here, springs, load, rubs, some, state, approach, forces, work, RIDGES[0]
+                here, springs, load, rubs, some, state, approach, forces, work, RIDGES[0], DRAWN
             )
         if status != CONVERGED:
             put(smooth, base[a])
