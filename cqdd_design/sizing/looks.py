@@ -49,6 +49,8 @@ from cqdd_design.verdict.joint_lines import bell_line
 from cqdd_design.verdict.motor import held_up_to, motor_lines
 
 HOT = "THERMAL-RISE"
+BY_HEAT = frozenset({"MOTOR-CONTINUOUS", HOT})
+"""Lines that less of the continuous torque, or of its speed, helps by itself."""
 _LEAST_STEP = 1e-6
 """Clearance that has to grow at all, m: to the next fit."""
 _LESS = 0.9

@@ -9,11 +9,10 @@ from cqdd_design.design import Requirements
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.infeasible import SizingInfeasibleError
+from cqdd_design.sizing.looks import BY_HEAT
 from cqdd_design.sizing.verified import VerifiedDesign
 from cqdd_design.verdict.motor import held_up_to
 
-TOO_HOT = frozenset({"MOTOR-CONTINUOUS", "THERMAL-RISE"})
-"""Lines that less of the continuous torque, or of its speed, helps by itself."""
 TRIES = 4
 """Speeds that are tried above one that fits."""
 _SHARES = (1.0, 0.9)
@@ -40,7 +39,7 @@ def less_speed(hunt: Hunt, refusal: SizingInfeasibleError, search: _Search) -> f
         For a design of other requirements.
     """
     asked, first = hunt.requirements, refusal.most_speed
-    if first is None or not set(refusal.binding) <= TOO_HOT:
+    if first is None or not set(refusal.binding) <= BY_HEAT:
         return None
     hunt.say("looking for the speed at which that fits")
     too_much = RPM * asked.held_speed

@@ -10,9 +10,9 @@ from cqdd_design.errors import InfeasibleError
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.sizing.able import CONTINUOUS, PEAK
 from cqdd_design.sizing.infeasible import SizingInfeasibleError
-from cqdd_design.sizing.slower import TOO_HOT
+from cqdd_design.sizing.looks import BY_HEAT
 
-ALONE = {PEAK: {"MOTOR-PEAK"}, CONTINUOUS: TOO_HOT}
+ALONE = {PEAK: {"MOTOR-PEAK"}, CONTINUOUS: BY_HEAT}
 """Lines that less of one torque alone helps."""
 _NEAR = 1.02
 """Factor between a torque that fits and one that does not within which none is tried."""

@@ -11,7 +11,7 @@ from cqdd_design.sizing.bearable import JUST, weaker
 from cqdd_design.sizing.frame import Goal
 from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.kinds import lightest, promising
-from cqdd_design.sizing.looks import HOT, clearance_needed, motor_far_short, read_spread
+from cqdd_design.sizing.looks import BY_HEAT, HOT, clearance_needed, motor_far_short, read_spread
 from cqdd_design.sizing.refusals import short_of
 from cqdd_design.sizing.shafts import BONDS, SHAFT, stronger_shaft
 from cqdd_design.sizing.spaces import FITS, Found
@@ -43,8 +43,6 @@ _GOALS: Mapping[str, Goal] = {
 _COOL: Goal = "efficiency"
 _NEARLY_HELD = 0.85
 """Margin of what a motor holds with a gearbox that loses little, from which the search goes on."""
-_LASTING = {"MOTOR-CONTINUOUS", HOT}
-"""Lines of which a continuous torque that nobody stated is lowered."""
 _BY_STRENGTH = {"STIFFNESS", "SHOCK-STOP"}
 """Lines that are asked for and that a stronger gearbox meets."""
 _STURDIER = 1.3
@@ -61,7 +59,7 @@ def cooler_gearbox(hunt: Hunt, far: tuple[Check, ...]) -> Found:
     SizingInfeasibleError
         When the motor is as far from it with that one, or it is a peak torque.
     """
-    if hunt.goal == _COOL or not {line.id for line in far} <= _LASTING:
+    if hunt.goal == _COOL or not {line.id for line in far} <= BY_HEAT:
         raise short_of(far, hunt.held_up_to)
     hunt.say("searching with efficiency as the objective, for what the motor has to hold")
     hunt.goal, hunt.pins = _COOL, (False, True) if hunt.may_roll else hunt.pins
@@ -187,7 +185,7 @@ def turned(hunt: Hunt, found: Found, judged: Verdict) -> bool:
         hunt.sturdier *= _STURDIER
         hunt.say(f"searching for a gearbox with {hunt.sturdier:.3g} times the reserve at the peak")
         return True
-    if failing & _LASTING and CONTINUOUS in hunt.requirements.derived:
+    if failing & BY_HEAT and CONTINUOUS in hunt.requirements.derived:
         return False
     goals = [goal for goal in _goals(hunt, failing, judged) if goal not in hunt.tried]
     if not goals or goals[0] == hunt.goal:

@@ -24,6 +24,7 @@ from cqdd_design.sizing.hunt import Hunt, Progress
 from cqdd_design.sizing.infeasible import SizingInfeasibleError
 from cqdd_design.sizing.kinds import lightest, promising
 from cqdd_design.sizing.looks import (
+    BY_HEAT,
     NothingWiderError,
     last_look,
     learn,
@@ -132,15 +133,16 @@ def searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
 
     Where the search for the best ends without a design, the first that meets everything is searched
     for, and then one of the strongest: that is what refusals name as the nearest, so whoever asks
-    for it has to find it.
+    for it has to find it. A stronger one warms a motor as much, so none is looked at for that.
     """
     goal, began = hunt.goal, time.perf_counter()
     refuse_weak_motor(hunt.requirements, hunt.motor_row, hunt.ambient)
     try:
         return _searched(hunt, requirements)
-    except SizingInfeasibleError:
+    except SizingInfeasibleError as refusal:
         if hunt.best_alone:
             raise
+        too_hot = bool(BY_HEAT & set(refusal.binding))
         if not hunt.any_will_do and hunt.calm is not None:
             hunt.say("searching for any design that meets everything")
             hunt = new_hunt(requirements, hunt.say, hunt.motor, hunt.ambient, goal)
@@ -149,7 +151,7 @@ def searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
                 return _searched(hunt, requirements)
             except InfeasibleError:
                 pass
-        strong = strong_and_sound(hunt)
+        strong = None if too_hot else strong_and_sound(hunt)
         if strong is None:
             raise
         found, verdict = strong

@@ -536,6 +536,28 @@ def test_before_a_refusal_any_design_is_searched_for(monkeypatch: pytest.MonkeyP
     assert tried == [False]
 
 
+@pytest.mark.parametrize("line", ["MOTOR-CONTINUOUS", "THERMAL-RISE"])
+def test_the_strongest_is_not_looked_at_for_what_heat_forbids(
+    monkeypatch: pytest.MonkeyPatch, line: str
+) -> None:
+    """It warms a motor as much; for part errors alone it is."""
+    stated, looked = asked(10, 30.0, 4.0, 1000.0), []
+    binding: tuple[str, ...] = ("YIELD", line)
+
+    def search(*_: object) -> Any:
+        raise SizingInfeasibleError("none.", binding=binding, most_torque=None)
+
+    monkeypatch.setattr("cqdd_design.sizing.verified._searched", search)
+    monkeypatch.setattr("cqdd_design.sizing.verified.strong_and_sound", looked.append)
+    with pytest.raises(SizingInfeasibleError):
+        searched(hunt_for(stated), stated)
+    assert not looked
+    binding = ("YIELD",)
+    with pytest.raises(SizingInfeasibleError):
+        searched(hunt_for(stated), stated)
+    assert len(looked) == 1
+
+
 def test_any_design_is_judged_as_it_was_found(monkeypatch: pytest.MonkeyPatch) -> None:
     """No better one is searched for."""
     hunt = hunt_for(asked(10, 30.0, 4.0, 1000.0))
