@@ -1,4 +1,4 @@
-"""What a machine's dowels bear: those round the ring, and those of the output's face."""
+"""What a machine's dowels bear: round the ring, in the output's face, and seats of output pins."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ import numpy as np
 from cqdd_design.catalog.dowels import DowelStress, across_a_joint, along_a_seam
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.gearbox.checks.allowables import Allowable, dowel_limit_seat
+from cqdd_design.gearbox.output_pins import shear_stress
+from cqdd_design.machine.held_stress import ends_of_pins, pressed_seats
 from cqdd_design.machine.machine import Machine
 
 
@@ -27,6 +29,8 @@ class LoadedDowels:
         Pressure that their seats bear.
     metal : str
         Key of what they sit in.
+    wider : str
+        What presses less, in words.
     """
 
     place: str
@@ -36,6 +40,7 @@ class LoadedDowels:
     stress: DowelStress
     seat: Allowable
     metal: str
+    wider: str = "a larger ring"
 
 
 def loaded_dowels(machine: Machine) -> tuple[LoadedDowels, ...]:
@@ -83,6 +88,30 @@ def loaded_dowels(machine: Machine) -> tuple[LoadedDowels, ...]:
             )
         )
     return tuple(found)
+
+
+def loaded_pin_seats(machine: Machine) -> tuple[LoadedDowels, ...]:
+    """The output pins of a machine at the peak torque, each as its seat alone holds its end.
+
+    None where the pins' moments are not known. Errors are those of :func:`loaded_dowels`.
+    """
+    if machine.contact.pin is None:
+        return ()
+    peak = machine.design.requirements.peak_torque
+    metal = find_material(machine.design.carrier_material)
+    return tuple(
+        LoadedDowels(
+            f"output pins in the {one.part}",
+            f"{1e3 * one.diameter:g} mm, {1e3 * one.depth:.3g} mm deep",
+            peak,
+            0.0,
+            DowelStress(float(shear_stress(one.force, one.diameter)), one.pressure),
+            dowel_limit_seat(metal),
+            "carrier.material",
+            "more or thicker output_pins",
+        )
+        for one in pressed_seats(machine, ends_of_pins(machine.peak_sweeps))
+    )
 
 
 def ring_torque(machine: Machine) -> float:

@@ -66,6 +66,30 @@ class PinEnds(NamedTuple):
     cap_moment: FloatArray
 
 
+class PressedSeat(NamedTuple):
+    """A seat that holds the end of an output pin alone, at its greatest pressure."""
+
+    part: str
+    name: str
+    """Of the feature."""
+    diameter: float
+    depth: float
+    """m."""
+    pressure: float
+    """Pa."""
+    force: float
+    moment: float
+    """Of the pin at the mouth of the seat, N and N m."""
+
+    @property
+    def held(self) -> HeldStress:
+        """As a place among others."""
+        of_pin = f"{self.force:.0f} N and {self.moment:.2g} N*m of a pin"
+        return HeldStress(
+            self.part, self.name, self.pressure, f"{of_pin} on {1e3 * self.depth:.3g} mm"
+        )
+
+
 @dataclass(frozen=True, eq=False)
 class HeldLoads:
     """What housing and carrier hold; C senses of torque at A crank angles.
@@ -110,8 +134,12 @@ def held_loads(machine: Machine) -> HeldLoads:
     pack, layout = PackLoads.of(sweeps), machine.layout
     shares = carried_shares(disc_heights(layout.pack), knife_edges(layout.shaft))
     lower, upper = (np.asarray(pack.on_shaft @ one) for one in shares)
-    ends = PinEnds(*(np.stack(one) for one in zip(*map(pin_ends, sweeps), strict=True)))
-    return HeldLoads(pack, output_loads(machine, pack), lower, upper, ends)
+    return HeldLoads(pack, output_loads(machine, pack), lower, upper, ends_of_pins(sweeps))
+
+
+def ends_of_pins(sweeps: Sequence[ContactSweep]) -> PinEnds:
+    """Forces and moments at the ends of the pins of some sweeps, (C, A, P); see `pin_ends`."""
+    return PinEnds(*(np.stack(one) for one in zip(*map(pin_ends, sweeps), strict=True)))
 
 
 def pin_ends(sweep: ContactSweep) -> PinEnds:
@@ -252,7 +280,7 @@ def _plate(machine: Machine, held: HeldLoads) -> Iterator[HeldStress]:
     carrier, support = layout.carrier, layout.shaft.support.bearing
     features = plate_features(carrier, layout.shaft, 0.0)
     part, output, loads = "carrier plate", carrier.output.bearing, held.output
-    yield _socket(part, _pin_seats(features), held.pins.plate, held.pins.plate_moment)
+    yield pressed_seats(machine, held.pins)[0].held
     push, across = float(np.abs(held.upper).max()), float(loads.radial.max())
     pressed = stress.seat_pressure(push, support.outer_diameter, support.width)
     yield HeldStress(part, "seat of the shaft bearing", pressed, f"{push:.0f} N across")
@@ -300,31 +328,44 @@ def _cap(machine: Machine, held: HeldLoads) -> Iterator[HeldStress]:
     if not carrier.cap:
         return
     part, gap = "carrier cap", machine.layout.pack.gap
-    seats = _pin_seats(cap_features(carrier, gap, 0.0))
-    yield _socket(part, seats, held.pins.cap, held.pins.cap_moment)
+    seat = pressed_seats(machine, held.pins)[1]
+    yield seat.held
     # A bar between two pins, at most half of all forces in it, out of line by the circle's rise.
     circle = carrier.pin_circle_radius
     most = 0.5 * float(np.abs(held.pins.cap).sum(axis=2).max())
     width = carrier.cap_outer - carrier.cap_inner - max(
-        2.0 * carrier.counterbore_radius, seats.diameter
+        2.0 * carrier.counterbore_radius, seat.diameter
     )  # fmt: skip
     thick, rise = -gap - carrier.cap_bottom, circle * (1.0 - math.cos(math.pi / carrier.pin_count))
     drawn = most / (width * thick) * (1.0 + 6.0 * rise / width)
     yield HeldStress(part, "ring between its pins", drawn, f"{most:.0f} N along it at most")
 
 
-def _pin_seats(features: Sequence[Feature]) -> FittedHole:
-    return next(one for one in features if isinstance(one, FittedHole) and "pin" in one.name)
+def pressed_seats(machine: Machine, ends: PinEnds) -> tuple[PressedSeat, ...]:
+    """The most pressed seat of a pin in the plate, and in the cap where there is one.
+
+    Raises
+    ------
+    GeometryError
+        When the machine cannot be laid out.
+    """
+    layout = machine.layout
+    carrier, gap = layout.carrier, layout.pack.gap
+    plate = _pressed(
+        "carrier plate", plate_features(carrier, layout.shaft, 0.0), ends.plate, ends.plate_moment
+    )
+    if not carrier.cap:
+        return (plate,)
+    features = cap_features(carrier, gap, 0.0)
+    return plate, _pressed("carrier cap", features, ends.cap, ends.cap_moment)
 
 
-def _socket(part: str, seat: FittedHole, on_it: ComplexArray, moment: FloatArray) -> HeldStress:
-    """The most pressed seat of a pin, which holds its end alone."""
+def _pressed(
+    part: str, features: Sequence[Feature], on_it: ComplexArray, moment: FloatArray
+) -> PressedSeat:
+    seat = next(one for one in features if isinstance(one, FittedHole) and "pin" in one.name)
     long, force = seat.top - seat.bottom, np.abs(on_it)
     pressed = stress.socket_pressure(force, moment, seat.diameter, long)
     worst = np.unravel_index(int(pressed.argmax()), pressed.shape)
-    return HeldStress(
-        part,
-        seat.name,
-        float(pressed[worst]),
-        f"{force[worst]:.0f} N and {moment[worst]:.2g} N*m of a pin on {1e3 * long:.3g} mm",
-    )
+    most = (float(one[worst]) for one in (pressed, force, moment))
+    return PressedSeat(part, seat.name, seat.diameter, long, *most)

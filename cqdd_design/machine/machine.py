@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from cqdd_design.gearbox.bodies.compliance import ElasticBodies
     from cqdd_design.gearbox.contact.laws import LineModel
     from cqdd_design.gearbox.contact.model import ContactModel
+    from cqdd_design.gearbox.contact.solved import ContactSweep
     from cqdd_design.gearbox.heat.expansion import PartTemperatures
     from cqdd_design.gearbox.life import LifeResult
     from cqdd_design.gearbox.losses import FrictionMachine, LossModel
@@ -336,24 +337,36 @@ class Machine:
     @cached_property
     def peak_pack(self) -> PackLoads:
         """Forces of the discs at the peak torque, see `pack_at`."""
-        return self.pack_at(self.design.requirements.peak_torque)
+        from cqdd_design.gearbox.pack_loads import PackLoads
+
+        return PackLoads.of(self.peak_sweeps)
 
     def pack_at(self, torque: float) -> PackLoads:
-        """Forces of the discs at an output torque, N m, in both senses, driving from rest.
+        """Forces of the discs at an output torque, N m; see `peak_sweeps`."""
+        from cqdd_design.gearbox.pack_loads import PackLoads
+
+        return PackLoads.of(self._from_rest(torque))
+
+    @cached_property
+    def peak_sweeps(self) -> tuple[ContactSweep, ContactSweep]:
+        """Contacts of both senses of the peak torque, driving from rest.
 
         Friction is then that of a gearbox without films, which is the most.
 
         ContactError where it has no equilibrium.
         """
+        return self._from_rest(self.design.requirements.peak_torque)
+
+    def _from_rest(self, torque: float) -> tuple[ContactSweep, ContactSweep]:
         from cqdd_design.gearbox.contact.rubbing import ContactFriction
         from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
-        from cqdd_design.gearbox.pack_loads import PackLoads
 
         model = self.contact
         rubbed = ContactFriction.of(model, "drive", 0.0)
         angles = perfect_angles(model, _PEAK_ANGLES)
-        return PackLoads.of(
-            [contact_sweep(model, one, angles, friction=rubbed) for one in (torque, -torque)]
+        return (
+            contact_sweep(model, torque, angles, friction=rubbed),
+            contact_sweep(model, -torque, angles, friction=rubbed),
         )
 
     @cached_property

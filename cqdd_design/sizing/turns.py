@@ -8,10 +8,12 @@ from collections.abc import Mapping
 from cqdd_design.results import Check
 from cqdd_design.sizing.able import CONTINUOUS, PEAK, cooler
 from cqdd_design.sizing.bearable import JUST, weaker
+from cqdd_design.sizing.finish import torque_reserve
 from cqdd_design.sizing.frame import Goal
 from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.kinds import lightest, promising
 from cqdd_design.sizing.looks import BY_HEAT, HOT, clearance_needed, motor_far_short, read_spread
+from cqdd_design.sizing.plates import pins_press
 from cqdd_design.sizing.refusals import short_of
 from cqdd_design.sizing.shafts import BONDS, SHAFT, stronger_shaft
 from cqdd_design.sizing.spaces import FITS, Found
@@ -43,6 +45,9 @@ _GOALS: Mapping[str, Goal] = {
 _COOL: Goal = "efficiency"
 _NEARLY_HELD = 0.85
 """Margin of what a motor holds with a gearbox that loses little, from which the search goes on."""
+_SEATS, _BENDING, _STIFFER = "DOWEL-BEARING", "PIN-BENDING-PEAK", 1.05
+"""The line of the seats of output pins, that of their bending, and how much less of it is searched
+for than their pressure asks for: the force across a pin presses too."""
 _BY_STRENGTH = {"STIFFNESS", "SHOCK-STOP"}
 """Lines that are asked for and that a stronger gearbox meets."""
 _STURDIER = 1.3
@@ -81,6 +86,12 @@ def next_step(hunt: Hunt, found: Found, judged: Verdict) -> float | None:
         if not failing:
             return 0.0
     others = failing - {"YIELD", "THERMAL-CLEARANCE", *SHAFT}
+    if _SEATS in others and PEAK not in hunt.requirements.derived:
+        if not _stronger_pins(hunt, found, judged):
+            return None
+        others.discard(_SEATS)
+        if not others:
+            return 0.0
     if others:
         share = _bearing_all(hunt, judged, others)
         if share is None:
@@ -99,6 +110,18 @@ def next_step(hunt: Hunt, found: Found, judged: Verdict) -> float | None:
         return step
     machine, drawn = judged.evidence.machine, judged.evidence.drawn
     return None if drawn is None else read_spread(hunt, machine, drawn, judged.lines)
+
+
+def _stronger_pins(hunt: Hunt, found: Found, judged: Verdict) -> bool:
+    """Whether seats of the output pins yield; then pins that bend less are searched for."""
+    over = pins_press(judged.evidence.machine)
+    if over <= 1.0:
+        return False
+    # What presses a seat most is the bending of its pin.
+    line = next(one for one in judged.lines if one.id == _BENDING)
+    had = torque_reserve(line, found.sized.design)
+    hunt.ask_extra(found.cam, {_BENDING: _STIFFER * over * had}, {_BENDING: had})
+    return True
 
 
 def _bearing_all(hunt: Hunt, judged: Verdict, short: set[str]) -> float | None:

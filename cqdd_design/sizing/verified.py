@@ -204,7 +204,7 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
             sound, plain = None, found
             found = with_sound_plate(plain)
             if found is not plain:
-                progress("taking a carrier of steel: warm aluminium would press its bearing")
+                progress("taking a carrier of steel: aluminium would press its bearing, or yield")
             with drawing_ahead(found.sized.machine):
                 can, step = look(hunt, found.sized.machine)
             if can is None and step is None:

@@ -18,7 +18,7 @@ from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine
 from cqdd_design.machine.cures import ROUGHLY, torques_that_hold
-from cqdd_design.machine.dowels import LoadedDowels, loaded_dowels
+from cqdd_design.machine.dowels import LoadedDowels, loaded_dowels, loaded_pin_seats
 from cqdd_design.machine.temperatures import MachineTemperatures
 from cqdd_design.results import Check
 from cqdd_design.solids.motor_rules import MOST_HUB, bell_material, bell_torque, bonded_length
@@ -33,7 +33,7 @@ DOWELS = ("DOWEL-SHEAR", "DOWEL-BEARING")
 
 
 def joint_lines(machine: Machine, warm: MachineTemperatures | None) -> tuple[Check, ...]:
-    """Dowels of ring and output at the peak torque, the bell's bond at the motor's.
+    """Dowels and pins' seats at the peak torque, the bell's bond at the motor's.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def joint_lines(machine: Machine, warm: MachineTemperatures | None) -> tuple[Che
 
 def _dowels(machine: Machine) -> tuple[Check, ...]:
     try:
-        found = loaded_dowels(machine)
+        found, seats = loaded_dowels(machine), loaded_pin_seats(machine)
         lacking = _lacking(machine)
     except (CatalogError, ContactError, GeometryError) as error:
         return tuple(
@@ -54,7 +54,7 @@ def _dowels(machine: Machine) -> tuple[Check, ...]:
     if lacking:
         remedy = "raise ring.outer_diameter, or lower output_pins.diameter"
         return tuple(build_check(one, None, None, lacking, remedy) for one in DOWELS)
-    asked, lines = machine.design.requirements, _judged(found)
+    asked, lines = machine.design.requirements, _judged(found, seats)
     cures = torques_that_hold(
         lambda torque: dowels(machine.under(peak=torque)),
         asked.peak_torque,
@@ -74,18 +74,20 @@ def _dowels(machine: Machine) -> tuple[Check, ...]:
 
 def dowels(machine: Machine) -> tuple[Check, Check]:
     """Both lines at the peak torque; errors as of `loaded_dowels`."""
-    return _judged(loaded_dowels(machine))
+    return _judged(loaded_dowels(machine), loaded_pin_seats(machine))
 
 
-def _judged(found: tuple[LoadedDowels, ...]) -> tuple[Check, Check]:
-    """Both lines of some dowels."""
+def _judged(
+    found: tuple[LoadedDowels, ...], seats: tuple[LoadedDowels, ...]
+) -> tuple[Check, Check]:
+    """Both lines of some dowels, and of seats of pins, whose shear is another line's."""
     shear, press = (
         [(one, one.stress.shear, dowel_limit_shear()) for one in found],
-        [(one, one.stress.pressure, one.seat) for one in found],
+        [(one, one.stress.pressure, one.seat) for one in (*found, *seats)],
     )
     return (
         _dowel("DOWEL-SHEAR", shear, "larger dowels ask for a thicker ring"),
-        _dowel("DOWEL-BEARING", press, "take a stronger {metal} or a larger ring"),
+        _dowel("DOWEL-BEARING", press, "take a stronger {one.metal}, or {one.wider}"),
     )
 
 
@@ -170,7 +172,7 @@ def _dowel(name: str, every: list[tuple[LoadedDowels, float, Allowable]], cure: 
     Parameters
     ----------
     cure : str
-        With ``{metal}`` for the key of what these sit in.
+        With ``{one}`` for these.
     """
     told = "; ".join(
         f"{one.place}: {one.size}, {value / _MEGA:.3g} of {limit.value / _MEGA:.3g} MPa under "
@@ -183,6 +185,6 @@ def _dowel(name: str, every: list[tuple[LoadedDowels, float, Allowable]], cure: 
         value / _MEGA,
         limit.value / _MEGA if limit.value else None,
         told,
-        cure.format(metal=worst.metal),
+        cure.format(one=worst),
         basis=limit.basis,
     )

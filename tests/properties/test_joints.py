@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from cqdd_design.catalog.adhesives import ROTOR_COMPOUND, joint_shear
+from cqdd_design.catalog.bearings import SHAFT_MATERIAL
 from cqdd_design.catalog.dowels import SHARE, across_a_joint, along_a_seam
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.catalog.threads import coarse_thread
@@ -20,8 +22,9 @@ from cqdd_design.design import load_design
 from cqdd_design.gearbox.checks.allowables import bond_limit
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.machine import Machine, resolve
-from cqdd_design.machine.dowels import loaded_dowels, ring_torque
+from cqdd_design.machine.dowels import loaded_dowels, loaded_pin_seats, ring_torque
 from cqdd_design.machine.heat_nodes import NODES
+from cqdd_design.machine.held_stress import ends_of_pins, pressed_seats
 from cqdd_design.machine.output_loads import output_loads
 from cqdd_design.machine.screws import ScrewJoint, screw_joints
 from cqdd_design.machine.temperatures import MachineTemperatures
@@ -75,8 +78,9 @@ def test_the_ring_takes_the_torques_of_output_and_crank(machine: Machine) -> Non
     assert found - asked.peak_torque == pytest.approx(crank)
 
 
-def test_dowel_lines_follow_the_torque(machine: Machine) -> None:
+def test_dowel_lines_follow_the_torque(machine: Machine, monkeypatch: pytest.MonkeyPatch) -> None:
     """Twice the torque on the same dowels is twice the stress; a far larger one fails."""
+    monkeypatch.setattr("cqdd_design.verdict.joint_lines.loaded_pin_seats", lambda _: ())
     one = lines_of(machine)
     assert one["DOWEL-SHEAR"].status == one["DOWEL-BEARING"].status == "pass"
     less = machine.changed({"requirements.peak_torque": "45 N*m"})
@@ -93,6 +97,49 @@ def test_dowel_lines_follow_the_torque(machine: Machine) -> None:
     vars(less)["layout"] = none
     lacking = lines_of(less)
     assert lacking["DOWEL-SHEAR"].status == lacking["DOWEL-BEARING"].status == "unknown"
+
+
+def test_seats_hold_the_output_pins(machine: Machine) -> None:
+    """By a pressure in proportion along the seat, which bears force and moment of the pin."""
+    ends = ends_of_pins(machine.peak_sweeps)
+    pins, lay = machine.design.reducer.output_pins, machine.layout
+    # Force and torque on plate and cap are those of the output, whatever a pin does.
+    both = ends.plate + ends.cap
+    around = machine.contact.pin_circle_radius
+    assert np.abs(both).sum(axis=2).max() * around > machine.design.requirements.peak_torque
+    for seat, one in zip(pressed_seats(machine, ends), loaded_pin_seats(machine), strict=True):
+        deep = np.linspace(0.0, seat.depth, 20001)
+        # p = p0 (1 - z/h): h from the two balances at the mouth, F = d int p, M = -d int p z.
+        slope = (6.0 * seat.force + 12.0 * seat.moment / seat.depth) / seat.depth**2
+        pressed = (seat.pressure * seat.diameter - slope * deep) / seat.diameter
+        force = np.trapezoid(pressed, deep) * seat.diameter
+        moment = np.trapezoid(pressed * deep, deep) * seat.diameter
+        assert force == pytest.approx(seat.force, rel=1e-6)
+        assert -moment == pytest.approx(seat.moment, rel=1e-6, abs=1e-9)
+        assert one.stress.pressure == seat.pressure == pytest.approx(np.abs(pressed).max())
+        assert (seat.diameter, one.metal) == (pins.diameter, "carrier.material")
+    plate, cap = pressed_seats(machine, ends)
+    assert (plate.part, cap.part) == ("carrier plate", "carrier cap")
+    assert plate.depth == pytest.approx(lay.carrier.shoulder_top - lay.carrier.plate_bottom)
+
+
+def test_the_seats_of_pins_are_judged_at_the_peak(machine: Machine) -> None:
+    """The one with least reserve is told; a stronger carrier and less torque help."""
+    line = lines_of(machine)["DOWEL-BEARING"]
+    assert line.status == "fail"
+    worst = max(loaded_pin_seats(machine), key=lambda one: one.stress.pressure)
+    assert line.value == pytest.approx(1e-6 * worst.stress.pressure)
+    assert worst.place in line.substituted
+    assert "more or thicker output_pins" in line.remedy
+    (less,) = re.findall(r"lower the torque to ([0-9.]+) N", line.remedy)
+    held = machine.changed({"requirements.peak_torque": f"{less} N*m"})
+    assert lines_of(held)["DOWEL-BEARING"].status == "pass"
+    steel = machine.changed({"reducer.carrier.material": SHAFT_MATERIAL})
+    assert lines_of(steel)["DOWEL-BEARING"].margin > 1.5 * line.margin
+    # Plates that are one body: the moments of the pins are not known.
+    stiff = machine.changed({})
+    vars(stiff)["contact"] = replace(machine.contact, pin=None)
+    assert loaded_pin_seats(stiff) == ()
 
 
 @pytest.mark.parametrize("torque", [40.0, 60.0, 150.0])

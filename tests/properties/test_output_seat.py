@@ -255,6 +255,8 @@ def test_a_search_ends_in_steel_where_aluminium_presses(of_aluminium, warm, monk
 
     known = "cqdd_design.sizing.plates.known_temperatures"
     monkeypatch.setattr(known, judged)
+    monkeypatch.setattr("cqdd_design.sizing.plates.pins_press", lambda _: pressed)
+    pressed = 0.9
     assert steel_helps(of_aluminium, warm)
     sized = SizedDesign(of_aluminium.design, (), (), None, of_aluminium)
     found = Found(None, None, {}, sized, None, True)
@@ -271,3 +273,6 @@ def test_a_search_ends_in_steel_where_aluminium_presses(of_aluminium, warm, monk
     assert with_sound_plate(found) is found
     monkeypatch.setattr(known, lambda _: None)
     assert with_sound_plate(found) is found
+    # Or where seats of its pins would yield, whatever its warmth.
+    pressed = 0.92
+    assert with_sound_plate(found).sized.design.carrier_material == SHAFT_MATERIAL

@@ -14,7 +14,7 @@ from shared_outputs import paper_input
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.operating import held_torque, needed
 from cqdd_design.actuator.specimen import AS_DRAWN
-from cqdd_design.catalog.bearings import bearings
+from cqdd_design.catalog.bearings import SHAFT_MATERIAL, bearings
 from cqdd_design.catalog.motors import DRAG, find_motor
 from cqdd_design.design import Design, load_design
 from cqdd_design.gearbox.checks.equilibrium import ENDLESS
@@ -269,8 +269,8 @@ def test_the_first_figure_is_the_weaker_of_motor_and_gearbox(judged: Verdict) ->
     assert motor is not None
     assert figure.value is not None
     assert figure.value <= motor
-    ring = lines["CONTACT-RING-PEAK"]
-    assert (figure.value < 50.0) == (motor < 50.0 or not ring.satisfied)
+    weak = [one for one in ("CONTACT-RING-PEAK", "DOWEL-BEARING") if not lines[one].satisfied]
+    assert (figure.value < 50.0) == (motor < 50.0 or bool(weak))
 
 
 @pytest.mark.deep
@@ -289,10 +289,12 @@ def test_the_rotor_hangs_on_the_support_bearings_at_any_torque(
 
 
 def test_a_peak_that_is_not_known_names_the_lines_that_are_not() -> None:
-    figure = judge(resolve(load_design(DESIGNS / "printed-13.toml")), samples=0).headline[0]
+    steel = {"reducer.carrier.material": SHAFT_MATERIAL}
+    printed = load_design(DESIGNS / "printed-13.toml").replacing(steel)
+    figure = judge(resolve(printed), samples=0).headline[0]
     assert figure.status == "unknown"
     assert figure.value is None
-    assert figure.basis.startswith("not known of OUTPUT-STATIC; all else holds to 13.04 N*m (")
+    assert figure.basis.startswith("not known of OUTPUT-STATIC; all else holds to 13.63 N*m (")
 
 
 @pytest.mark.deep

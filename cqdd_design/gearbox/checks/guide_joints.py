@@ -30,13 +30,14 @@ ROWS = (
     ),
     CheckGuide(
         "DOWEL-BEARING",
-        "Pressure of the dowels of ring and output on their seats, peak torque",
+        "Pressure of dowels and output pins on their seats, peak torque",
         "MPa",
         "max",
-        "ring: p = 2 F/(d l), half a dowel in either part; output: F/(d l); F = T/(0.75 N R) <= "
+        "ring: p = 2 F/(d l), half a dowel in either part; output: F/(d l); F = T/(0.75 N R); "
+        "pins: 4 F/(d l) + 6 M/(d l^2) at the mouth of their seats in plate and cap <= "
         f"S_y/{limits.PIN_SAFETY_AT_PEAK:g} of the weaker seat",
-        "A seat in aluminium or plastic that yields lets ring or flange turn a little at every "
-        "change of sense.",
+        "A seat in aluminium or plastic that yields lets ring, flange or pin give way a little at "
+        "every change of sense.",
         f"{_ROLOFF}; share of several: DIN 6892",
         basis=_EQUILIBRIUM,
     ),
