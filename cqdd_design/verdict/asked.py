@@ -21,6 +21,7 @@ from cqdd_design.solids.motor_rules import light_rotor
 from cqdd_design.verdict.bore_line import bore_line
 from cqdd_design.verdict.evidence import Evidence
 from cqdd_design.verdict.headline import Figure, backlash, efficiency, mass
+from cqdd_design.verdict.motor import GIVE
 from cqdd_design.verdict.reached import PEAK_LINES, standing_torque
 
 _ARCMIN = math.degrees(1.0) * 60.0
@@ -141,6 +142,8 @@ def _mass(evidence: Evidence) -> Iterator[Check]:
     wanted = evidence.machine.design.requirements.mass
     if wanted is not None:
         cure = "ask for less torque, or take a lighter motor or housing.material"
+        if evidence.machine.motor.mass is None:
+            cure = GIVE
         yield _of_figure("MASS", mass(evidence.machine), wanted, cure)
 
 

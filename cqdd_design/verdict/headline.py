@@ -134,7 +134,9 @@ def _continuous(evidence: Evidence, by_id: dict[str, Check]) -> Figure:
         f"{known}, for ever at {whose}{alone}; not asked for, the duty's heat decides, see the "
         "temperature"
     )
-    return Figure(name, title, value, "N*m", None, heat.status, basis)
+    # Nobody asked for any; what heat forbids is told by the temperature.
+    status: Status = "unknown" if value is None or heat.status == "unknown" else "pass"
+    return Figure(name, title, value, "N*m", None, status, basis)
 
 
 def peak_torque(evidence: Evidence, lines: Sequence[Check]) -> Figure:

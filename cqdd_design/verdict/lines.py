@@ -25,7 +25,7 @@ from cqdd_design.verdict.creep_lines import creep_lines
 from cqdd_design.verdict.drawn import yield_line
 from cqdd_design.verdict.evidence import Evidence
 from cqdd_design.verdict.joint_lines import joint_lines
-from cqdd_design.verdict.motor import motor_lines
+from cqdd_design.verdict.motor import motor_lines, with_drag
 from cqdd_design.verdict.output_seat_line import output_seat_line
 from cqdd_design.verdict.retention_lines import retention_lines
 from cqdd_design.verdict.rotor_lines import rotor_lines
@@ -42,7 +42,8 @@ _HEAT = ("THERMAL-RISE", "THERMAL-CLEARANCE")
 def with_drawn(evidence: Evidence, lines: Sequence[Check]) -> tuple[Check, ...]:
     """Every line: those of perfect parts, yield, and what else is asked."""
     drawn = yield_line(evidence.machine, evidence.drawn, evidence.drawn_missing, lines)
-    return (*lines, drawn, *asked_lines(evidence, lines))
+    asked = with_drag(asked_lines(evidence, lines), evidence.machine.motor)
+    return (*lines, drawn, *asked)
 
 
 def lines_without_drawn(evidence: Evidence) -> tuple[Check, ...]:
@@ -75,7 +76,7 @@ def lines_without_drawn(evidence: Evidence) -> tuple[Check, ...]:
         uncooled="" if machine.design.drive.thermal_resistance else evidence.heat_missing,
         lasting=evidence.lasting_torque,
     )
-    return tuple(lines)
+    return with_drag(lines, machine.motor)
 
 
 def _carried(machine: Machine) -> dict[str, Check]:

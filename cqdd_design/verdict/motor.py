@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import replace
 
@@ -58,6 +59,15 @@ _FIGURES = (
     ("torque_constant", "torque constant"),
 )
 DRAG_MISSING = "drag"
+_OF_DRAG = {
+    "MOTOR-CONTINUOUS",
+    "MOTOR-SPEED",
+    "DUTY-ENVELOPE",
+    "THERMAL-RISE",
+    "THERMAL-CLEARANCE",
+    "SURFACE-TEMPERATURE",
+}
+"""Lines that a motor's own drag makes worse."""
 GIVE = "give them in the design's [motor] table or with --motor-file, or name a motor that has them"
 
 
@@ -130,9 +140,29 @@ def _data(motor: Motor) -> tuple[Check, ...]:
         return ()
     told = f"not known of '{motor.name}': {', '.join(missing)}"
     if DRAG_MISSING in missing:
-        told += "; without its own drag, which counts as 0, lines of heat and speed say too much"
+        told += "; without its own drag (coulomb, viscous) lines of heat and speed are not known"
     count = float(len(_FIGURES) + 1)
     return (build_check("MOTOR-DATA", None, count, told, GIVE, model=MODEL),)
+
+
+def with_drag(lines: Iterable[Check], motor: Motor) -> tuple[Check, ...]:
+    """The lines, none of which passes that an own drag of the motor nobody knows would make worse.
+
+    What fails without it fails.
+    """
+    if not motor.lacks_drag:
+        return tuple(lines)
+    return tuple(
+        replace(
+            one,
+            value=None,
+            substituted=f"without the motor's own drag, which is not known: {one.substituted}",
+            remedy=GIVE,
+        )
+        if one.id in _OF_DRAG and one.status == "pass"
+        else one
+        for one in lines
+    )
 
 
 def _peak(demand: Demand, actuator: ActuatorParameters, machine: Machine) -> Check:

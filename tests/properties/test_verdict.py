@@ -315,9 +315,29 @@ def test_drag_that_nobody_measured_never_passes(machine: Machine) -> None:
     free = replace(machine.motor, **dict.fromkeys(DRAG))
     lines = by_id(motor_lines(replace(machine, motor=free), None, ""))
     assert lines["MOTOR-DATA"].status == "unknown"
-    assert "drag, which counts as 0" in lines["MOTOR-DATA"].substituted
+    told = lines["MOTOR-DATA"].substituted
+    assert "drag; without its own drag (coulomb, viscous)" in told
     stated = replace(free, **dict.fromkeys(DRAG, 0.0))
     assert "MOTOR-DATA" not in by_id(motor_lines(replace(machine, motor=stated), None, ""))
+
+
+def test_heat_and_speed_without_drag_are_not_known_unless_they_fail(machine: Machine) -> None:
+    """A file without `coulomb` and `viscous` said a surface passed at 44 degC that has 62."""
+    asked = {"requirements.surface_temperature": "200 degC"}
+    whole = machine.changed(asked)
+    free = replace(whole, motor=replace(machine.motor, **dict.fromkeys(DRAG)))
+    known, unknown = (judge(one, samples=0) for one in (whole, free))
+    before, after = by_id(known.lines), by_id(unknown.lines)
+    assert before.keys() | {"MOTOR-DATA"} == after.keys()
+    hanging = {"THERMAL-RISE", "SURFACE-TEMPERATURE", "MOTOR-CONTINUOUS", "MOTOR-SPEED"}
+    for name in hanging:
+        line = after[name]
+        assert line.status in {"unknown", "fail"}
+        if line.status == "unknown":
+            assert "drag" in line.substituted
+            assert "[motor]" in line.remedy
+    assert {before[one].status for one in hanging} > {"fail"}
+    assert unknown.headline[5].status != "pass"
 
 
 @pytest.mark.parametrize("key", ["peak_torque", "bore_diameter", "rotor_inertia"])
