@@ -206,7 +206,12 @@ def _lines(road: Road, *, verbose: bool) -> list[str]:
         "",
         table(_choices(sizing), head=_CHOICE_HEAD, right=tuple(range(1, len(_CHOICE_HEAD)))),
         textwrap.fill(
-            f"sizes in mm; counted: {sizing.objective.scope}; `inertia` weighs the whole machine.",
+            f"sizes in mm; counted: {sizing.objective.scope}; `inertia` weighs the whole machine."
+            + (
+                " Alternatives are found by closed forms: --pick judges one."
+                if sizing.alternatives
+                else ""
+            ),
             WIDTH,
         ),
         "",

@@ -166,6 +166,7 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
         # And an estimate of what is carried need not stand above what they find.
         told = refusal.message.replace(refusal.estimate, "") if stated else refusal.message
         hunt.say(f"{told.rstrip('.')}.")
+        hunt.say("looking for what would fit, which may take minutes (Ctrl-C where that is enough)")
     if stated:
         hunt.say("looking for the torques that fit")
         less = _less_torque(hunt, refusal)

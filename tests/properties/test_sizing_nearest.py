@@ -77,6 +77,7 @@ def test_that_it_does_not_fit_is_told_before_what_would_is_looked_for(monkeypatc
     said(monkeypatch, lambda length: length >= 13.2, lambda *_: torques, progress=told.append)
     assert told == [
         "it does not fit.",
+        "looking for what would fit, which may take minutes (Ctrl-C where that is enough)",
         "looking for the torques that fit",
         "What fits at least: peak_torque 15 N*m with continuous_torque 5 N*m.",
         "looking for more torque that still fits",
