@@ -270,6 +270,11 @@ class Recording:
             if share > 0.0:
                 told.append(f"the {name} of {limit:g} {unit} binds in {share:.2%} of the records.")
         told += filter(None, [beyond_peak(first.motor, run.current)])
+        if first.motor.dry_drag == first.motor.drag_slope == 0.0:
+            told.append(
+                "the motor turns without drag of its own, of which nothing is known (motor.coulomb "
+                "and motor.viscous): it coasts further and draws less current than it will."
+            )
         if self.beyond is not None:
             told.append(
                 f"the torque in the gearbox reaches {self.beyond.torque:.3g} N*m, which the "

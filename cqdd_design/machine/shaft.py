@@ -114,9 +114,9 @@ class ShaftBending:
             f"a disc that followed the slope of its shaft would close its teeth by "
             f"{closing * 1e6:.3g} um more at one face than at the other, over twice the "
             f"{self.ring_approach * 1e6:.3g} um by which the busiest tooth approaches: the load "
-            "would leave one end of the line, and the pressures are too low there. A lower "
-            "eccentricity or a cam bearing with a larger bore leaves room for a thicker shaft in "
-            "larger bearings; thinner discs close more evenly.",
+            "would leave one end of the line, and the pressures are too low there. A cam "
+            "bearing with a larger bore leaves room for a thicker shaft in larger bearings; "
+            "thinner discs close more evenly.",
         )
 
     def to_dict(self) -> dict[str, object]:

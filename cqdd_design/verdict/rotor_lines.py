@@ -35,7 +35,10 @@ def rotor_lines(machine: Machine) -> tuple[Check, Check]:
 
 
 def _unknown(name: str, why: str) -> Check:
-    remedy = "name a motor whose sizes are known, and leave room for bearings of the shaft"
+    remedy = (
+        "name a motor whose sizes are known; where bushes carry the shaft, a cam bearing with a "
+        "larger bore leaves room for bearings"
+    )
     return build_check(name, None, None, why, remedy)
 
 

@@ -155,7 +155,7 @@ def _strength(machine: Machine, peak: PackLoads, duty: PackLoads) -> tuple[Check
     asked, found = machine.design.requirements, shaft_strength(machine, peak, duty)
     allowed = shaft_limit_peak(found.material)
     static, lasting = found.static, found.lasting
-    thicker = "a cam bearing with a larger bore, or less eccentricity, leaves a thicker shaft"
+    thicker = "a cam bearing with a larger bore leaves room for a thicker shaft"
     return (
         build_check(
             "SHAFT-STRENGTH",

@@ -62,6 +62,20 @@ def test_a_motor_beyond_its_own_peak_torque_is_told(cqdd, tmp_path):
     assert told not in " ".join(cqdd(*words, "--amplitude", "40 N*m").err.split())
 
 
+def test_a_motor_of_which_no_drag_is_known_is_told(cqdd, tmp_path):
+    (tmp_path / "own.toml").write_text(
+        'torque_constant = "0.1 N*m/A"\nresistance = "0.1 ohm"\ninductance = "0.1 mH"\n'
+        'rotor_inertia = "2e-4 kg*m^2"\npole_pairs = 14\n',
+        "utf-8",
+    )
+    words = ("simulate", DESIGN, "--load", "locked", "--duration", "20 ms", "--force")
+    told = "the motor turns without drag of its own"
+    own = cqdd(*words, "--motor-file", "own.toml")
+    assert own.code == 0, own.err
+    assert told in " ".join(own.err.split())
+    assert told not in " ".join(cqdd(*words).err.split())
+
+
 def test_a_pendulum_held_at_rest_weighs_what_it_weighs(cqdd, tmp_path):
     """At rest the flange carries m g r sin q, and the angle is off by torque over gain."""
     done = cqdd(

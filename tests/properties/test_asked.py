@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -137,6 +138,38 @@ def test_values_are_those_of_their_models(judged: Verdict, lines: dict[str, Chec
     assert stood[1].startswith(lines["DOWEL-BEARING"].title)
     assert lines["BORE"].value == pytest.approx(2e3 * machine.layout.shaft.bore_radius)
     assert lines["BORE"].status == "pass"
+
+
+def test_lost_motion_is_never_less_than_the_backlash_of_the_gearboxes(judged: Verdict) -> None:
+    """Of perfect parts where they have more play; of drawn ones, with the same give, where not."""
+    drawn = judged.evidence.drawn
+    assert drawn is not None
+    perfect = precision(judged.evidence.machine.contact, 14.0, angles=96)
+    for more in (-60.0, 60.0):
+        values = drawn.continuous.values.copy()
+        values[:, OUTPUTS.index("backlash_arcmin")] += more
+        loose = drawn._replace(continuous=replace(drawn.continuous, values=values))
+        there = {one.id: one for one in asked_lines(replace(judged.evidence, drawn=loose))}
+        play = max(there["BACKLASH"].value or 0.0, perfect.free.mean * ARCMIN)
+        give = (perfect.lost_motion - perfect.free.mean) * ARCMIN
+        assert there["LOST-MOTION"].value == pytest.approx(play + give)
+        assert ("perfect" in there["LOST-MOTION"].substituted) == (more < 0.0)
+
+
+def test_remedies_name_what_would_pass(judged: Verdict) -> None:
+    asked = {"efficiency": 0.999, "surface_temperature": 26.0}
+    machine = under(**ASKED | asked)
+    there = {one.id: one for one in asked_lines(replace(judged.evidence, machine=machine))}
+    hot, poor = there["SURFACE-TEMPERATURE"], there["EFFICIENCY"]
+    assert hot.status == poor.status == "fail"
+    assert hot.value is not None
+    assert poor.value is not None
+    told = re.search(r"surface_temperature of ([\d.]+) degC", hot.remedy)
+    assert told
+    assert hot.value <= float(told[1]) < 1.01 * hot.value
+    told = re.search(r"efficiency of ([\d.]+)", poor.remedy)
+    assert told
+    assert 0.99 * poor.value < float(told[1]) <= poor.value
 
 
 def test_senses_are_right(judged: Verdict) -> None:

@@ -37,10 +37,12 @@ from cqdd_design.gearbox.checks import (
     guide_retention,
     guide_shaft,
 )
+from cqdd_design.gearbox.checks.allowables import LIGAMENT
 from cqdd_design.gearbox.checks.equilibrium import PeakLoads, lasting_checks, peak_checks
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 from cqdd_design.geometry.cycloid import CycloidDisc
+from cqdd_design.geometry.disc import ligaments
 from cqdd_design.machine import resolve
 from cqdd_design.results import Check, MassProperties, worst_status
 from cqdd_design.sizing.exact import exact_checks
@@ -267,6 +269,18 @@ def test_the_computed_remedy_makes_the_check_pass(
     assert named, check.remedy
     mended = broken.replacing({key: f"{named.group(1)} {unit}"})
     assert by_id(resolve(mended).analysis)[check_id].status == "pass"
+
+
+def test_holes_between_lobes_and_bore_are_told_what_leaves_both_enough() -> None:
+    pins = "reducer.output_pins."
+    wide = SOUND.replacing({f"{pins}diameter": "6 mm", f"{pins}circle_radius": "24 mm"})
+    remedy = by_id(resolve(wide).analysis)["GEO-LIGAMENT-PROFILE"].remedy
+    named = re.search(r"to ([\d.]+) mm with a cam bearing of at most ([\d.]+) mm", remedy)
+    assert named, remedy
+    moved = wide.replacing({f"{pins}circle_radius": f"{named[1]} mm"})
+    for bore, enough in ((float(named[2]), True), (float(named[2]) + 0.1, False)):
+        left = min(one.thickness for one in ligaments(moved, bore_diameter=1e-3 * bore))
+        assert (left >= LIGAMENT - 1e-8) == enough
 
 
 @pytest.mark.parametrize(

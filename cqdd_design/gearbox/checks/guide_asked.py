@@ -24,7 +24,8 @@ ROWS = (
         "Lost motion at 3 % of the continuous torque",
         "arcmin",
         "max",
-        "mean range of the output between -3 % and +3 % <= the required lost motion",
+        "mean range of the output between -3 % and +3 % <= the required lost motion; of perfect "
+        "parts, or of those drawn where their 95th percentile of backlash is larger",
         "Backlash and the first, soft part of the teeth's give: what a small load moves.",
         "the requirements; definition of lost motion in catalogues of precision gears",
         basis=_EQUILIBRIUM,

@@ -178,17 +178,24 @@ def _outward(state: GearboxState, circle: float) -> str:
 def _inward(state: GearboxState) -> str:
     """The circle whose holes leave enough beside the lobes, by the distance to their nearest point.
 
-    That moves along the lobe as the holes go inward, so they are looked at again.
+    That moves along the lobe as the holes go inward, so they are looked at again; and where they
+    come too near the bore on that circle, the bearing that is small enough for it.
     """
     key, bore = "reducer.output_pins.circle_radius", state.cam_bearing.bearing.outer_diameter
     circle, found = state.stages.pin_circle_radius, state.geometry.ligaments
     with suppress(CqddError):
         for _ in range(_MOVES):
-            short = allowables.LIGAMENT - next(
-                one.thickness for one in found if one.kind == "hole to profile"
-            )
+            left = {one.kind: one.thickness for one in found}
+            short = allowables.LIGAMENT - left["hole to profile"]
             if short <= _SLACK:
-                return f"lower output_pins.circle_radius to {_mm(circle):g} mm"
+                move = f"lower output_pins.circle_radius to {_mm(circle):g} mm"
+                inside = allowables.LIGAMENT - left["hole to bore"]
+                if inside <= _SLACK:
+                    return move
+                smaller = (
+                    f"a cam bearing of at most {rounded_down(_mm(bore - 2.0 * inside), 4):g} mm"
+                )
+                return f"use thinner pins, or {move} with {smaller} outside diameter"
             # To a hundredth of a millimetre, so that what is told is what was looked at.
             circle = 1e-5 * math.floor(1e5 * (circle - short))
             found = ligaments(state.design.replacing({key: circle}), bore_diameter=bore)
