@@ -271,7 +271,7 @@ _CURES = {
     "bind": "give modification.equidistant and hole_clearance some um more, or closer [tolerances]",
     "ring": "closer [tolerances] of teeth and profile, or more reserve of pressure (thicker discs, "
     "harder material)",
-    "cam": "closer [tolerances], more clearance, or a larger cam bearing",
+    "cam": "closer [tolerances], more clearance, or a larger cam bearing where it has room",
     "backlash": "smaller clearances with closer [tolerances]",
     "stiffness": "smaller clearances, or thicker or more output_pins",
 }

@@ -258,7 +258,7 @@ def test_statistics_are_those_of_the_values() -> None:
         assert told["mean"] == pytest.approx(column.mean())
         assert told["std"] == pytest.approx(column.std(ddof=1))
     assert result.to_dict()["samples"] == 40
-    assert result.solves == 40 * 2 * 88
+    assert result.solves == 40 * (88 + 60)
 
 
 def test_angles_too_few_for_a_figure_are_warned_of() -> None:

@@ -244,7 +244,9 @@ class Start(NamedTuple):
     """What the perfect gearbox knows before toleranced ones are solved."""
 
     marked: NDArray[np.bool_]
-    """(A,) Angles that serve backlash, stiffness and the gearbox without load."""
+    """(A,) Angles that serve the gearbox without load."""
+    thinned: NDArray[np.bool_]
+    """(B,) Those of the marked angles that serve backlash and stiffness."""
     perfect: FloatArray
     """(A, 3 + 3 D) Its states under the torque, plates held and without friction."""
     free_poses: FloatArray

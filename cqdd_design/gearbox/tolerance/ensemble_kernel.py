@@ -227,7 +227,7 @@ def _windup(
 ) -> int:
     """Stiffness between half of the torque and all of it; -1, or a failing angle."""
     count, discs, contacts = nominal.gaps.shape
-    length, some = nominal.length, np.flatnonzero(start.marked)
+    length, some = nominal.length, np.flatnonzero(start.marked)[start.thinned]
     half = Load(0.5 * start.torque / length, load.scale_stiffness)
     eased = room(some.size, discs, contacts)
     base = np.empty((count, 3 + 3 * discs))
@@ -324,18 +324,19 @@ def _turned(parts: RigidParts, some: Any, sense: float, start: Start, ends: Any,
 @part()
 def _free(parts: RigidParts, some: Any, start: Start, tight: Any, values: Any) -> int:
     """Backlash, and which of `some` angles are `tight`; -1, or a failing angle."""
-    count = some.size
-    least, most = np.empty(count), np.empty(count)
-    stopped = _turned(parts, some, -1.0, start, least, tight)
+    thinned = np.flatnonzero(start.thinned)
+    count = thinned.size
+    least, most = np.empty(count), np.empty(some.size)
+    stopped = _turned(parts, some[thinned], -1.0, start, least, np.empty(count, dtype=np.bool_))
     if stopped < 0:
         stopped = _turned(parts, some, 1.0, start, most, tight)
     if stopped >= 0:
         return int(stopped)
     free = 0.0
     for b in range(count):
-        width = most[b] - least[b]
+        width = most[thinned[b]] - least[b]
         # Pressed from both sides there is none.
-        if not (tight[b] and width <= CLOSED / parts.length):
+        if not (tight[thinned[b]] and width <= CLOSED / parts.length):
             free += max(width, 0.0)
     values[BACKLASH] = free / count
     return -1

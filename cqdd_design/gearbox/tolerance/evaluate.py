@@ -77,8 +77,12 @@ PER_TOOTH = 8, 2
 pressure at the continuous torque and 0.1 % at the peak, four 0.7 to 1.1 and 0.1 to 0.4 %, two 2 %
 and up to 1; of the transmission error 0.5, 1.5 and 5 % (means of 64 gearboxes, ratios 8 to 15)."""
 _COARSE = 200
-"""About so many of the angles serve backlash, stiffness and what turns the gearbox unloaded: a
-hundred would lose a fifth of the torque that turns the tightest (ratio 10)."""
+"""About so many of the angles serve what turns the gearbox unloaded: a hundred would lose a fifth
+of the torque that turns the tightest (ratio 10)."""
+_THINNED, _LEAST_THINNED = 0.5 * (3.0 + math.sqrt(5.0)), 60
+"""Steps between those of them that serve backlash and stiffness, which are means, and how many
+there are at least: against all angles of the turn the 95th percentile of the backlash is off by
+0.3 % at most (ratios 8 to 15). Steps of the golden section see all phases of the teeth alike."""
 _NICER = 10
 """By how much threads that work gearboxes are nicer to others, of 19 steps."""
 
@@ -119,7 +123,7 @@ def turn_angles(lobe_count: int) -> int:
 
 
 def marked_angles(lobe_count: int, count: int) -> NDArray[np.bool_]:
-    """Which of `count` angles over the output turn serve backlash and stiffness, (count,).
+    """Which of `count` angles over the output turn serve the gearbox without load, (count,).
 
     The step between them shares no factor with the angles to a tooth: with one it would see the
     teeth in some of their phases only.
@@ -132,6 +136,13 @@ def marked_angles(lobe_count: int, count: int) -> NDArray[np.bool_]:
     marked = np.zeros(count, dtype=np.bool_)
     marked[:: min(steps, key=lambda step: abs(math.log(step / wanted)))] = True
     return marked
+
+
+def thinned_angles(count: int) -> NDArray[np.bool_]:
+    """Which of `count` marked angles serve backlash and stiffness, (count,)."""
+    step = min(max(count / _LEAST_THINNED, 1.0), _THINNED)
+    places = (step * np.arange(count)).astype(int)
+    return np.isin(np.arange(count), places)
 
 
 class BodyCompliance(NamedTuple):
@@ -207,7 +218,7 @@ def ensemble_tables(
     held = replace(model, pin=None)
     perfect = contact_sweep(held, torque, states=states).state_vectors
     free = np.zeros((2, *perfect.shape)) if outputs == LOADS else free_poses(model, states)
-    start = Start(marked, perfect, free, torque)
+    start = Start(marked, thinned_angles(int(marked.sum())), perfect, free, torque)
     rigid = EnsembleTables(model, states, start, _shared(model, states, torque, at_rest=at_rest))
     return rigid if bodies is None else rigid.yielding(bodies)
 

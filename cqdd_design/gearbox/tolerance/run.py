@@ -13,7 +13,7 @@ from cqdd_design.errors import UsageError
 from cqdd_design.gearbox.checks.allowables import BINDING_SHARE
 from cqdd_design.gearbox.tolerance.draws import GROUPS
 from cqdd_design.gearbox.tolerance.ensemble import Block, Ensemble, Mapper, work_here
-from cqdd_design.gearbox.tolerance.evaluate import FREEDOM, OUTPUTS, marked_angles
+from cqdd_design.gearbox.tolerance.evaluate import FREEDOM, OUTPUTS, marked_angles, thinned_angles
 from cqdd_design.gearbox.tolerance.limits import limits
 from cqdd_design.gearbox.tolerance.sobol import SobolIndices, sobol_indices
 from cqdd_design.geometry.contours import FloatArray
@@ -299,7 +299,8 @@ def _solves(ensemble: Ensemble) -> int:
     marked = int(marked_angles(ensemble.design.reducer.ratio, ensemble.angles).sum())
     if ensemble.outputs == FREEDOM:
         return marked
-    return ensemble.angles + (marked if ensemble.outputs == OUTPUTS else 0)
+    wound = int(thinned_angles(marked).sum()) if ensemble.outputs == OUTPUTS else 0
+    return ensemble.angles + wound
 
 
 def _blocks(count: int, exchanged: tuple[str, ...]) -> list[Block]:
