@@ -173,17 +173,8 @@ def binding(judged: Verdict) -> str:
     """What limits a design, and what to change: what is not met, or else the closest lines."""
     short = [line for line in judged.limits if line.status != "pass"]
     if short:
-        return "what is not met, and what would change that:\n" + told(
-            [
-                (
-                    f"{line.id}, {line.title}",
-                    f"{line.substituted.removesuffix('.')}: {line.remedy}"
-                    if not line.known
-                    else line.remedy,
-                )
-                for line in short
-            ]
-        )
+        known = [(f"{line.id}, {line.title}", line.remedy) for line in short if line.known]
+        return "what is not met, and what would change that:\n" + told([*known, *_unknown(short)])
     closest = ", ".join(f"{line.id} {line.margin:.3g}" for line in judged.limits)
     sizes = ", ".join(line.id for line in judged.filled)
     sentences = [f"closest to their limits, by margin: {closest}"]
@@ -192,6 +183,24 @@ def binding(judged: Verdict) -> str:
         textwrap.fill(one, WIDTH, subsequent_indent="  ", break_on_hyphens=False)
         for one in sentences
     )
+
+
+def _unknown(lines: Sequence[Check]) -> list[tuple[str, str]]:
+    """Lines that are not known with the reason; those of one reason together, which tells it."""
+    by_reason: dict[str, list[Check]] = {}
+    for line in lines:
+        if not line.known:
+            by_reason.setdefault(line.substituted.removesuffix("."), []).append(line)
+    found = []
+    for reason, alike in by_reason.items():
+        names = ", ".join(line.id for line in alike)
+        what = alike[0].title if len(alike) == 1 else f"{len(alike)} lines that are not known"
+        # What all of them name; other reasons say themselves what to do.
+        cures = {line.remedy for line in alike}
+        cure = cures.pop() if len(cures) == 1 else "see why"
+        told_too = "" if cure.startswith("see why") else f": {cure}"
+        found.append((f"{names}, {what}", f"{reason}{told_too}"))
+    return found
 
 
 def remedies(checks: Sequence[Check]) -> str:

@@ -155,6 +155,22 @@ def test_what_is_not_known_is_one_sentence_with_its_remedy():
     assert "the depth of the slots is not known: state it" in " ".join(said.split())
 
 
+def test_a_reason_that_many_lines_share_is_told_once():
+    wide = "the bearing is too wide; take a narrower one."
+    names = ("SHAFT-STRENGTH", "SHAFT-FATIGUE", "SHAFT-STUB")
+    cures = ("see why it is not known", "see why it is not known", "name a motor")
+    alike = [build_check(one, None, None, wide, two) for one, two in zip(names, cures, strict=True)]
+    own = build_check("MOTOR-SPEED", None, None, "no drag", "give it")
+    fails = build_check("BEARING-WIDTH", 2.0, 1.0, "2", "lower it")
+    said = binding(SimpleNamespace(limits=(alike[0], own, fails, *alike[1:]), filled=(), costs=()))
+    words = " ".join(said.split())
+    assert words.count("too wide") == 1
+    assert "- SHAFT-STRENGTH, SHAFT-FATIGUE, SHAFT-STUB, 3 lines that are not known: the" in words
+    assert words.count("no drag: give it") == words.count("lower it") == 1
+    assert "see why" not in words
+    assert "name a motor" not in words
+
+
 def test_what_is_not_known_is_no_yes(cqdd, paper_design_file, tmp_path):
     """A motor that nobody measured: lines that name the missing figures, and exit code 4."""
     text = paper_design_file.read_text()
