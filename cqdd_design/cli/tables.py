@@ -219,7 +219,11 @@ def told(sentences: Sequence[tuple[str, str]]) -> str:
     """A list of names with a sentence each."""
     return "\n".join(
         textwrap.fill(
-            f"{name}: {sentence}", width=WIDTH, initial_indent="- ", subsequent_indent="  "
+            f"{name}: {sentence}",
+            width=WIDTH,
+            initial_indent="- ",
+            subsequent_indent="  ",
+            break_on_hyphens=False,
         )
         for name, sentence in sentences
     )

@@ -169,6 +169,7 @@ def test_a_reason_that_many_lines_share_is_told_once():
     assert words.count("no drag: give it") == words.count("lower it") == 1
     assert "see why" not in words
     assert "name a motor" not in words
+    assert "-\n" not in said
 
 
 def test_what_is_not_known_is_no_yes(cqdd, paper_design_file, tmp_path):
