@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from cqdd_design.solids.axial import AxialStack
     from cqdd_design.solids.inertia import GearboxInertia
     from cqdd_design.solids.retention import Retained
+    from cqdd_design.solids.tool_access import ToolReach
 
 
 _PEAK_ANGLES = 120
@@ -245,6 +246,13 @@ class Machine:
         from cqdd_design.solids.axial import ring_stack
 
         return (*self.axial_stacks, ring_stack(self.parts))
+
+    @cached_property
+    def tool_access(self) -> tuple[tuple[ToolReach, ...], bool]:
+        """Keys at the screws as it is put together, and whether it can be; errors as `parts`."""
+        from cqdd_design.solids.tool_access import tool_access
+
+        return tool_access(self.design, self.parts)
 
     @cached_property
     def inertia(self) -> GearboxInertia:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
@@ -17,6 +18,7 @@ from cqdd_design.gearbox.bodies.strength import BodyStrength
 from cqdd_design.gearbox.checks.heat import cooling_remedy
 from cqdd_design.machine import Machine
 from cqdd_design.machine.body_analysis import judged_or_told
+from cqdd_design.machine.cooling import cooled_network
 from cqdd_design.machine.lasting import lasting_torque, margin_of
 from cqdd_design.machine.temperatures import (
     MachineTemperatures,
@@ -104,10 +106,11 @@ def gather(
     # What cannot exist is refused before anything is told.
     _ = machine.analysis
     progress("judging loads, stress and life")
-    # All that follows asks for them.
-    _ = machine.bodies
     # Gearboxes are drawn in compiled code, beside which all else has another core.
     with ThreadPoolExecutor(1) as beside:
+        beside.submit(_unloaded, machine)
+        # All that follows asks for them.
+        _ = machine.bodies
         strained = beside.submit(judged_or_told, machine)
         heat = beside.submit(_heat, machine)
         motor = beside.submit(_actuator, machine, specimen)
@@ -142,6 +145,13 @@ def gather(
                 one.cancel()
             raise
         return replace(told(), drawn=drawn, drawn_missing=undrawn), made.result()
+
+
+def _unloaded(machine: Machine) -> None:
+    """Make what a machine keeps and needs no loads; its lines tell where that cannot be made."""
+    with suppress(CqddError):
+        _ = machine.inertia, machine.retention, machine.told_stacks, machine.tool_access
+        cooled_network(machine)
 
 
 def _actuator(machine: Machine, specimen: Specimen) -> tuple[ActuatorParameters | None, str]:

@@ -17,7 +17,6 @@ from cqdd_design.machine.heat_nodes import Node
 from cqdd_design.machine.screws import ScrewJoint, screw_joints
 from cqdd_design.machine.temperatures import MachineTemperatures
 from cqdd_design.results import Check
-from cqdd_design.solids.tool_access import tool_access
 
 _MEGA = 1e6
 _ENDLESS = 1e3
@@ -151,7 +150,7 @@ def _thread(every: tuple[ScrewJoint, ...]) -> Check:
 def _tools(machine: Machine) -> Check:
     """Whether keys reach the screws in the order in which the machine is put together."""
     try:
-        found, whole = tool_access(machine.design, machine.parts)
+        found, whole = machine.tool_access
     except (CatalogError, GeometryError) as error:
         return build_check("SCREW-TOOL-ACCESS", None, 0.0, error.message, "see why there is none")
     lacking = [one for one in found if not one.reaches]
