@@ -21,8 +21,10 @@ from cqdd_design.gearbox.bodies.made import elastic_bodies
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
 from cqdd_design.gearbox.contact.rubbing import ContactFriction
+from cqdd_design.gearbox.contact.states import nominal_states
 from cqdd_design.gearbox.contact.sweep import contact_sweep, output_turn_angles
 from cqdd_design.gearbox.heat.expansion import PartTemperatures
+from cqdd_design.gearbox.precision.backlash import backlash
 from cqdd_design.gearbox.precision.precision import precision
 from cqdd_design.gearbox.tolerance.draws import GROUPS, draw_errors, profile_amplitudes
 from cqdd_design.gearbox.tolerance.ensemble import (
@@ -153,6 +155,20 @@ def test_numbers_do_not_depend_on_threads_or_blocks() -> None:
     assert not np.array_equal(bodies.rubbing, bodies.smooth)
     pieces = [work_block(ensemble, Block(first, 4)) for first in (8, 0, 4)]
     assert np.array_equal(one, np.concatenate([pieces[1], pieces[2], pieces[0]]))
+
+
+def test_backlash_is_the_mean_over_the_thinned_angles_of_the_turn(model: ContactModel) -> None:
+    """Solved angle by angle from the perfect gearbox's poses, and here from each other's."""
+    tables = ensemble_tables(model, 40.0)
+    errors = draw_errors(model, paper().tolerances, 3, 0, 4)
+    found = evaluate_gearboxes(tables, errors)[:, OUTPUTS.index("backlash_arcmin")]
+    marked = np.flatnonzero(tables.start.marked)
+    some = nominal_states(model, tables.states.crank_angle[marked[tables.start.thinned]])
+    for one, value in enumerate(found):
+        alone = GearboxErrors(*(field[one] for field in errors))
+        assert value == pytest.approx(
+            backlash(model, errors=alone, states=some).mean / ARCMIN, abs=1e-3
+        )
 
 
 def test_what_a_tight_gearbox_has_without_load_needs_no_whole_turn_under_load() -> None:
