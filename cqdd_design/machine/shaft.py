@@ -14,6 +14,7 @@ import numpy as np
 
 from cqdd_design.catalog.bearings import shaft_material
 from cqdd_design.catalog.materials import Material, find_material
+from cqdd_design.gearbox.cam_bearing import rolling_element
 from cqdd_design.gearbox.contact import laws
 from cqdd_design.gearbox.contact.laws import CamSpring
 from cqdd_design.gearbox.contact.solved import ContactSweep
@@ -69,6 +70,8 @@ class ShaftBending:
         Of the tooth contact with the greatest force, m.
     carrier_moment : float
         That tilts the carrier in its output bearing, N m.
+    follows : bool
+        Whether the cam bearings roll on rollers, which hold a disc to its crank.
     """
 
     deflection: float
@@ -83,6 +86,7 @@ class ShaftBending:
     edge_closing: float | None
     ring_approach: float
     carrier_moment: float
+    follows: bool
 
     @property
     def edge_load_factor(self) -> float | None:
@@ -110,12 +114,18 @@ class ShaftBending:
         closing = self.edge_closing
         if closing is None or closing <= 2.0 * self.ring_approach:
             return ()
+        who = (
+            "rollers make a disc follow the slope of its shaft, and its teeth may"
+            if self.follows
+            else "if a disc followed the slope of its shaft, which a row of balls hardly makes it "
+            "do, its teeth would"
+        )
         return (
-            f"a disc that followed the slope of its shaft would close its teeth by "
-            f"{closing * 1e6:.3g} um more at one face than at the other, over twice the "
-            f"{self.ring_approach * 1e6:.3g} um by which the busiest tooth approaches: the load "
-            "would leave one end of the line, and the pressures are too low there. A cam "
-            "bearing with a larger bore leaves room for a thicker shaft in larger bearings; "
+            f"{who} close by {closing * 1e6:.3g} um more at one face than at the other, over twice "
+            f"the {self.ring_approach * 1e6:.3g} um by which the busiest tooth approaches. The "
+            "load would leave one end of the line, and the pressure there be "
+            f"{math.sqrt(edge_load_factor(closing, self.ring_approach)):.2f} of what is told. A "
+            "cam bearing with a larger bore leaves room for a thicker shaft in larger bearings; "
             "thinner discs close more evenly.",
         )
 
@@ -187,6 +197,7 @@ def shaft_bending(machine: Machine, sweeps: Sequence[ContactSweep]) -> ShaftBend
         edge_closing=None if turned is None else (core_slope + turned) * pack.disc_thickness,
         ring_approach=max(_ring_approach(one) for one in sweeps),
         carrier_moment=_greatest(tilting),
+        follows=rolling_element(pack.cam.bearing) == "roller",
     )
 
 
