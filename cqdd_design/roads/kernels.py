@@ -109,7 +109,7 @@ _DRAWN = (
      "f", "f"),
     _SPRINGS,
     _LOAD,
-    ("Start", "b1", "f2", "f3", "f"),
+    ("Start", "b1", "b1", "f2", "f3", "f"),
     ("Shared", _RUBBING, _RUBBING, _COMPLIANCE, _COMPLIANCE, ("Worn", "f3", "f3", "f")),
     ("GearboxErrors", "f2", "f1", "f3", "f3", "f2", "f2", "f1", "f2", "f1", "f1"),
     "i",

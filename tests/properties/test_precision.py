@@ -420,13 +420,14 @@ def test_an_ensemble_gives_what_its_gearboxes_give_alone() -> None:
             "ring_pressure_max_MPa": full.ring_pressure.max() / 1e6,
             "cam_bearing_load_max_N": full.cam_load.max(),
         }
-        # The ensemble's backlash sees flanks as osculating circles, at every eleventh angle.
-        coarse = backlash(model, angle[tables.start.marked], errors=errors).mean / ARCMIN
+        # The ensemble's backlash sees flanks as osculating circles, at every thirteenth angle.
+        some = angle[tables.start.marked][tables.start.thinned]
+        coarse = backlash(model, some, errors=errors).mean / ARCMIN
         assert told["backlash_arcmin"] == pytest.approx(coarse, abs=0.02)
-        assert told["backlash_arcmin"] == pytest.approx(expected.pop("backlash_arcmin"), abs=0.05)
+        assert told["backlash_arcmin"] == pytest.approx(expected.pop("backlash_arcmin"), abs=0.1)
         for name, value in expected.items():
             # The stiffness is a mean, which fewer angles give nearly as well.
-            tolerance = 3e-3 if name.startswith("stiffness") else 1e-4
+            tolerance = 8e-3 if name.startswith("stiffness") else 1e-4
             assert told[name] == pytest.approx(value, rel=tolerance), name
 
 
