@@ -272,8 +272,8 @@ class Recording:
         told += filter(None, [beyond_peak(first.motor, run.current)])
         if first.motor.dry_drag == first.motor.drag_slope == 0.0:
             told.append(
-                "the motor turns without drag of its own, of which nothing is known (motor.coulomb "
-                "and motor.viscous): it coasts further and draws less current than it will."
+                "the motor turns without drag of its own (motor.coulomb, motor.viscous: none is "
+                "known, or 0 is stated): it coasts further and draws less current than with any."
             )
         if self.beyond is not None:
             told.append(

@@ -111,8 +111,8 @@ class ShaftBending:
         )
 
     def _uneven(self) -> tuple[str, ...]:
-        closing = self.edge_closing
-        if closing is None or closing <= 2.0 * self.ring_approach:
+        closing, factor = self.edge_closing, self.edge_load_factor
+        if closing is None or factor is None or closing <= 2.0 * self.ring_approach:
             return ()
         who = (
             "rollers make a disc follow the slope of its shaft, and its teeth may"
@@ -124,7 +124,7 @@ class ShaftBending:
             f"{who} close by {closing * 1e6:.3g} um more at one face than at the other, over twice "
             f"the {self.ring_approach * 1e6:.3g} um by which the busiest tooth approaches. The "
             "load would leave one end of the line, and the pressure there be "
-            f"{math.sqrt(edge_load_factor(closing, self.ring_approach)):.2f} of what is told. A "
+            f"{math.sqrt(factor):.2f} of what is told. A "
             "cam bearing with a larger bore leaves room for a thicker shaft in larger bearings; "
             "thinner discs close more evenly.",
         )
