@@ -123,6 +123,16 @@ def test_seats_hold_the_output_pins(machine: Machine) -> None:
     assert plate.depth == pytest.approx(lay.carrier.shoulder_top - lay.carrier.plate_bottom)
 
 
+def test_seats_and_shaft_are_looked_at_in_both_senses_of_the_peak(machine: Machine) -> None:
+    """Which of them presses harder hangs on where the holes stand to the lobes."""
+    peak = machine.design.requirements.peak_torque
+    forward, back = machine.peak_sweeps
+    for sweep, torque in ((forward, peak), (back, -peak)):
+        assert sweep.torque == torque
+        assert np.all(np.sign(sweep.carrier_angle_error) == np.sign(torque))
+    assert np.array_equal(machine.peak_pack.torque, machine.pack_at(peak).torque)
+
+
 def test_the_seats_of_pins_are_judged_at_the_peak(machine: Machine) -> None:
     """The one with least reserve is told; a stronger carrier and less torque help."""
     line = lines_of(machine)["DOWEL-BEARING"]
