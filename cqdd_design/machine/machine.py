@@ -50,6 +50,13 @@ _ROUGH_SHARES = (0.0, 1e-3, 5e-3, 0.02, 0.06, 0.15, 0.4, 1.0)
 to 3 %."""
 
 
+_DRAWN = (
+    *("seats", "layout", "parts", "retention", "axial_stacks", "told_stacks", "tool_access"),
+    *("inertia", "balance", "analysis"),
+)
+"""What is the same at any temperature, whether bodies yield or not."""
+
+
 class Cooling(NamedTuple):
     """Stated thermal resistance from winding to ambient, K/W; 0 where it is computed.
 
@@ -112,7 +119,17 @@ class Machine:
 
     def at(self, temperatures: PartTemperatures) -> Machine:
         """The machine with its parts at these temperatures."""
-        return replace(self, temperatures=temperatures)
+        return self._drawn_as(replace(self, temperatures=temperatures))
+
+    @cached_property
+    def rigid(self) -> Machine:
+        """The machine with discs and ring that count as rigid: itself where they do."""
+        return self if self.stiff else self._drawn_as(replace(self, stiff=True))
+
+    def _drawn_as(self, other: Machine) -> Machine:
+        """The other machine, which is drawn like this one, with what is known of that."""
+        vars(other).update({name: vars(self)[name] for name in _DRAWN if name in vars(self)})
+        return other
 
     @property
     def too_warm(self) -> tuple[str, ...]:

@@ -91,7 +91,7 @@ def learn(hunt: Hunt, found: Found) -> bool:
     machine, can, step = found.sized.machine, None, None
     hunt.borne = None
     for turn in range(_LOOKS):
-        rigid = replace(machine, stiff=True)
+        rigid = machine.rigid
         calm = machine.design, hunt.may_rise(found.cam)
         nothing = calm == hunt.calm
         can, step = (None, None) if nothing else look(hunt, rigid, heat_first=step is not None)
@@ -120,8 +120,8 @@ def motor_far_short(hunt: Hunt, machine: Machine, least: float = 0.0) -> tuple[C
     free, duty = hunt.requirements.derived, bool(hunt.requirements.load_cases)
     if free >= {PEAK, CONTINUOUS} and not duty:
         return ()
-    rigid = replace(machine, stiff=True)
-    hot = _hot_by_duty(rigid) if duty else ()
+    rigid = machine.rigid
+    hot = hot_undisturbed(rigid) if duty else ()
     far = [line for line in hot if line.margin < (least or _TOO_HOT)]
     # How a motor is cooled that is not drawn nobody knows, unless it is stated.
     cooled = machine.design.drive.thermal_resistance or not undrawn_sizes(machine.motor)
@@ -139,8 +139,8 @@ def motor_far_short(hunt: Hunt, machine: Machine, least: float = 0.0) -> tuple[C
     return tuple(far)
 
 
-def _hot_by_duty(machine: Machine) -> tuple[Check, ...]:
-    """How warm the duty makes parts that do not press on each other: clearance is another matter.
+def hot_undisturbed(machine: Machine) -> tuple[Check, ...]:
+    """How warm parts get that do not press on each other: clearance is another matter.
 
     Nothing where that is not known.
     """
@@ -148,7 +148,7 @@ def _hot_by_duty(machine: Machine) -> tuple[Check, ...]:
     if found is None:
         return ()
     lines = heat_checks(found.undisturbed)
-    remedy = cooling_remedy(duty=True)
+    remedy = cooling_remedy(duty=bool(machine.design.requirements.load_cases))
     return tuple(replace(one, remedy=remedy) for one in lines if one.id == HOT and one.known)
 
 
@@ -252,7 +252,7 @@ def closer_look(hunt: Hunt, found: Found, machine: Machine) -> float | None:
         drawn = drawn_alike(hunt, machine)
     except ContactError:
         return _LEAST_STEP
-    rigid = replace(machine, stiff=True)
+    rigid = machine.rigid
     return read_spread(hunt, rigid, drawn, hunt.held_against(rigid)[1])
 
 

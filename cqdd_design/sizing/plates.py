@@ -25,7 +25,7 @@ def with_sound_plate(found: Found) -> Found:
     Of the very same gearbox: steel is three times as heavy, so aluminium is searched for, and of
     what a steel carrier changes of loads and heat most is for the better.
     """
-    if not needs_steel(replace(found.sized.machine, stiff=True)):
+    if not needs_steel(found.sized.machine.rigid):
         return found
     return replace(found, sized=found.sized.remade({_MATERIAL: SHAFT_MATERIAL}))
 

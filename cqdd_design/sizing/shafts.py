@@ -8,7 +8,7 @@ Where the peak torque was not stated, less of it may cost less.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from dataclasses import replace
 
@@ -47,6 +47,8 @@ SHAFT = AT_PEAK | ANY_TORQUE | {"SHAFT-FATIGUE", "SUPPORT-LIFE"} | BONDS
 THICKNESS = frozenset({"SHAFT-STRENGTH", "SHAFT-FATIGUE"})
 """Lines that a thinner shaft does worse."""
 _ENDS_ALONE = frozenset({ENDS, "SUPPORT-LIFE"})
+_NO_DOUBT = 0.05
+"""By which a margin has to differ from 1 by the temperatures of a machine on other bearings."""
 _SHORT = frozenset({"fail", "unknown"})
 _THROW = "reducer.eccentricity"
 _LEAST_THROW, _THROW_STEP = 0.6, 0.005
@@ -60,12 +62,18 @@ def weak_lines(machine: Machine) -> tuple[Check, ...]:
 
     With rigid discs and ring, whose forces are within a few per cent.
     """
-    rigid = replace(machine, stiff=True)
-    short = (one for one in shaft_lines(rigid) if one.id in SHAFT and one.status in _SHORT)
+    return tuple(_weak(machine.rigid))
+
+
+def _weak(rigid: Machine) -> Iterator[Check]:
+    """Those lines, what takes longest last."""
+    yield from (one for one in shaft_lines(rigid) if one.id in SHAFT and one.status in _SHORT)
     # What is not known of a rotor no shaft tells.
-    hung = (one for one in rotor_lines(rigid) if one.status == "fail")
-    drawn = (bore_line(rigid), shoulder_on_shaft(rigid))
-    return (*short, *hung, *(one for one in drawn if one is not None and one.status == "fail"))
+    yield from (one for one in rotor_lines(rigid) if one.status == "fail")
+    for line_of in (bore_line, shoulder_on_shaft):
+        line = line_of(rigid)
+        if line is not None and line.status == "fail":
+            yield line
 
 
 def with_sound_ends(found: Found) -> Found:
@@ -78,18 +86,24 @@ def with_sound_ends(found: Found) -> Found:
     found = replace(found, weak=weak_lines(sized.machine))
     if not found.weak or not {line.id for line in found.weak} <= _ENDS_ALONE:
         return found
-    for other in on_stronger_ends(replace(sized.machine, stiff=True)):
+    for other in on_stronger_ends(sized.machine.rigid):
         # A smaller bore leaves the rotor a thinner stub to be bonded on.
-        if weak_lines(other) or _gives_way(other):
+        if any(_weak(other)) or _gives_way(other, sized.machine.rigid):
             continue
         named = other.seats[0].bearing.designation
         return replace(found, sized=sized.remade({END_KEY: named}), weak=())
     return found
 
 
-def _gives_way(machine: Machine) -> bool:
-    """Whether the bond of shaft and bell does, as warm as the machine gets."""
-    return bell_line(machine, judged_temperatures(machine)[0]).status == "fail"
+def _gives_way(machine: Machine, like: Machine) -> bool:
+    """Whether the bond of shaft and bell does, as warm as the machine gets.
+
+    As one that differs by the bearings at its shaft's ends alone, where that leaves no doubt.
+    """
+    line = bell_line(machine, judged_temperatures(like)[0])
+    if line.known and abs(line.margin - 1.0) < _NO_DOUBT:
+        line = bell_line(machine, judged_temperatures(machine)[0])
+    return line.status == "fail"
 
 
 def stronger_shaft(hunt: Hunt, found: Found, every: Iterable[Check]) -> None:

@@ -79,7 +79,7 @@ def _sound(hunt: Hunt, kind: Space) -> tuple[Found, Verdict] | None:
         if strong is None:
             break
         found = with_sound_plate(strong[1])
-        can, step = look(hunt, replace(found.sized.machine, stiff=True))
+        can, step = look(hunt, found.sized.machine.rigid)
         if can is None and step is None:
             can, step = look(hunt, found.sized.machine)
         if can is None and step is None:

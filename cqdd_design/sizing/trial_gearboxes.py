@@ -42,7 +42,7 @@ def drawn_alike(hunt: Hunt, machine: Machine) -> Drawn:
     as a share, is alike for designs of one hunt with discs of about the same thickness and for
     about the same torques.
     """
-    rigid_machine = replace(machine, stiff=True)
+    rigid_machine = machine.rigid
     # A carrier that becomes one of steel takes no clearance.
     steel = needs_steel(rigid_machine)
     warm = partial(known_temperatures, rigid_machine) if not steel else _unknown

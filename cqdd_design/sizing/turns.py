@@ -9,6 +9,7 @@ from cqdd_design.results import Check
 from cqdd_design.sizing.able import CONTINUOUS, PEAK, cooler
 from cqdd_design.sizing.bearable import JUST, weaker
 from cqdd_design.sizing.finish import torque_reserve
+from cqdd_design.sizing.foreseen import Foreseen
 from cqdd_design.sizing.frame import Goal
 from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.kinds import lightest, promising
@@ -146,7 +147,7 @@ def _as_heavy(hunt: Hunt, judged: Verdict) -> bool:
     return math.isclose(hunt.heavy, before, rel_tol=_SAME)
 
 
-def _mass(judged: Verdict) -> Check:
+def _mass(judged: Verdict | Foreseen) -> Check:
     return next(line for line in judged.lines if line.id == _MASS)
 
 
@@ -159,7 +160,7 @@ def _borne(line: Check) -> float:
     return float(max(min(line.margin**_LIGHTER, _LITTLE_LIGHTER), _LEAST_SHARE))
 
 
-def _loses_little_too_much(hunt: Hunt, judged: Verdict) -> bool:
+def _loses_little_too_much(hunt: Hunt, judged: Verdict | Foreseen) -> bool:
     """Whether a design falls short of what friction takes alone, and not by far."""
     short = [line for line in judged.lines if line.status in {"fail", "unknown"}]
     if any(line.id == HOT for line in short):
@@ -171,12 +172,12 @@ def _loses_little_too_much(hunt: Hunt, judged: Verdict) -> bool:
     )
 
 
-def _needles_help(hunt: Hunt, judged: Verdict) -> bool:
+def _needles_help(hunt: Hunt, judged: Verdict | Foreseen) -> bool:
     """Whether a design with bare pins loses a little too much."""
     return True not in hunt.pins and hunt.may_roll and _loses_little_too_much(hunt, judged)
 
 
-def with_another_bearing(hunt: Hunt, found: Found, judged: Verdict) -> Found | None:
+def with_another_bearing(hunt: Hunt, found: Found, judged: Verdict | Foreseen) -> Found | None:
     """The best design with other cam bearings than those that lose a little too much; or None.
 
     What one with another bearing loses differs by more than a tenth, while the search knows masses
@@ -193,7 +194,7 @@ def with_another_bearing(hunt: Hunt, found: Found, judged: Verdict) -> Found | N
     return other
 
 
-def turned(hunt: Hunt, found: Found, judged: Verdict) -> bool:
+def turned(hunt: Hunt, found: Found, judged: Verdict | Foreseen) -> bool:
     """Whether the hunt now goes for other pins, or for what a design falls short of."""
     if _needles_help(hunt, judged):
         hunt.pins = (True,)
@@ -221,7 +222,7 @@ def turned(hunt: Hunt, found: Found, judged: Verdict) -> bool:
     return True
 
 
-def _goals(hunt: Hunt, failing: set[str], judged: Verdict) -> list[Goal]:
+def _goals(hunt: Hunt, failing: set[str], judged: Verdict | Foreseen) -> list[Goal]:
     """Goals of searches that may meet what fails, where they may meet all of it."""
     asked = failing - {"YIELD", *SHAFT}
     if asked == {_MASS}:

@@ -19,6 +19,7 @@ from cqdd_design.errors import InfeasibleError
 from cqdd_design.sizing.able import CONTINUOUS, PEAK, first_guess
 from cqdd_design.sizing.bearable import or_weaker
 from cqdd_design.sizing.eased import LITTLE, MUCH, eased, given
+from cqdd_design.sizing.foreseen import Foreseen, foreseen
 from cqdd_design.sizing.frame import Fit, Goal
 from cqdd_design.sizing.hunt import Hunt, Progress
 from cqdd_design.sizing.infeasible import SizingInfeasibleError
@@ -182,6 +183,14 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
                     stronger_shaft(hunt, found, found.weak)
                 found = _better(hunt, found, sound, trial)
                 continue
+            if (short := foreseen(hunt, found)) is not None:
+                moved, other = _elsewhere(hunt, found, short)
+                if moved and other is None:
+                    # A refusal names all that binds.
+                    nearest = judge(found.sized.machine)
+                if moved:
+                    sound, found = None, other
+                    continue
             asks = (sound is None or sound.found is not found) and learn(hunt, found)
             if not asks:
                 sound = _Sound(found, hunt.requirements, hunt.fit)
@@ -221,12 +230,9 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
                 if judged.meets == "yes":
                     return verified(hunt, found, result.result(), judged, requirements)
                 nearest = judged if nearest is None else max(nearest, judged, key=least_margin)
-                other = with_another_bearing(hunt, found, judged)
-                if other is not None:
+                moved, other = _elsewhere(hunt, found, judged)
+                if moved:
                     found = other
-                    continue
-                if turned(hunt, found, judged):
-                    found = _after_turn(hunt, found, judged)
                     continue
                 step = next_step(hunt, found, judged)
                 if step is None:
@@ -245,7 +251,20 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
     raise nothing(hunt) if found is None else unsettled(found)
 
 
-def _after_turn(hunt: Hunt, found: Found, judged: Verdict) -> Found | None:
+def _elsewhere(hunt: Hunt, found: Found, judged: Verdict | Foreseen) -> tuple[bool, Found | None]:
+    """Whether the hunt goes for other cam bearings, pins or another goal, and what it finds then.
+
+    For what a design is short of by what friction takes, or by what is asked for beyond torques.
+    """
+    other = with_another_bearing(hunt, found, judged)
+    if other is not None:
+        return True, other
+    if turned(hunt, found, judged):
+        return True, _after_turn(hunt, found, judged)
+    return False, None
+
+
+def _after_turn(hunt: Hunt, found: Found, judged: Verdict | Foreseen) -> Found | None:
     """The design of a hunt that has turned; without any on needles, of bare pins by other ways.
 
     Cam bearings that were too warm for one goal may do for another.

@@ -13,6 +13,7 @@ from cqdd_design.errors import ContactError, GeometryError
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.gearbox.precision.precision import precision
 from cqdd_design.geometry.limits import rounded_down, rounded_up
+from cqdd_design.machine import Machine
 from cqdd_design.machine.carrying import carried_torque
 from cqdd_design.machine.cures import ROUGHLY, torques_that_hold
 from cqdd_design.machine.heat_nodes import Node
@@ -235,13 +236,21 @@ def _stiffness(evidence: Evidence) -> Iterator[Check]:
 
 
 def _efficiency(evidence: Evidence) -> Iterator[Check]:
-    wanted = evidence.machine.design.requirements.efficiency
-    if wanted is not None:
-        found = efficiency(evidence.machine)
-        cure = 'put the output pins on needles (sleeve = "needle"), or lower friction'
-        if found.value is not None:
-            cure += f"; or ask for an efficiency of {rounded_down(found.value, 3):g}"
-        yield _of_figure("EFFICIENCY", found, wanted, cure)
+    line = efficiency_line(evidence.machine)
+    if line is not None:
+        yield line
+
+
+def efficiency_line(machine: Machine) -> Check | None:
+    """The line EFFICIENCY; None where none is asked for."""
+    wanted = machine.design.requirements.efficiency
+    if wanted is None:
+        return None
+    found = efficiency(machine)
+    cure = 'put the output pins on needles (sleeve = "needle"), or lower friction'
+    if found.value is not None:
+        cure += f"; or ask for an efficiency of {rounded_down(found.value, 3):g}"
+    return _of_figure("EFFICIENCY", found, wanted, cure)
 
 
 def _surface(evidence: Evidence) -> Iterator[Check]:
