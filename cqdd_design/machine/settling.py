@@ -95,6 +95,9 @@ def settle(
         then = network.steady(found.heat)
         if np.abs(then - now).max() <= still:
             return found, then
+        if machine.stiff and min(hottest_part(now), hottest_part(then)) > HOTTEST:
+            # How hot it gets that is too hot no look of a search asks.
+            return found, then
         # What a kelvin more comes back as; beyond the most, heat runs away and is let go.
         if np.any(step):
             gain = min(float((then - before) @ step / (step @ step)), _MOST_GAIN)

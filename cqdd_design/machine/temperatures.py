@@ -40,6 +40,7 @@ from cqdd_design.machine.machine import Machine
 from cqdd_design.machine.settling import (
     SEARCHED_STILL,
     STILL,
+    Losing,
     gearbox_parts,
     hottest_part,
     magnets_at,
@@ -259,17 +260,10 @@ def machine_temperatures(
     GeometryError, DesignError, ContactError
         When the network or the losses are not known.
     """
-    network = network or cooled_network(machine)
     log = machine.design.requirements.duty_log if duty else None
-    cases = duty_cases(machine, duty=duty)
-
-    def lost(warm: Machine, magnets: float = COPPER_REFERENCE) -> DutyHeat:
-        if log is None:
-            return duty_heat(warm, cases, magnets)
-        return logged_heat(warm, log, magnets)[2]
-
-    as_drawn = lost(machine)
-    found = MachineTemperatures(machine, network, as_drawn, network.steady(as_drawn.heat), as_drawn)
+    lost = _losing(machine, duty=duty)
+    found = _as_drawn(machine, duty=duty, network=network)
+    network = found.network
     warm, magnets = machine, COPPER_REFERENCE
     try:
         heat, steady = settle(machine, network, lost, still)
@@ -281,6 +275,41 @@ def machine_temperatures(
     if log is None:
         return found
     return replace(found, cycle=_cycle(warm, network, log, magnets))
+
+
+@lru_cache(maxsize=6)
+def undisturbed_temperatures(machine: Machine) -> MachineTemperatures | None:
+    """`MachineTemperatures.undisturbed` alone; None where that is not known."""
+    log = machine.design.requirements.duty_log
+    try:
+        found = _as_drawn(machine)
+        if log is None:
+            return found
+        return replace(found, cycle=_cycle(machine, found.network, log, COPPER_REFERENCE))
+    except (ContactError, DesignError, GeometryError):
+        return None
+
+
+def _as_drawn(
+    machine: Machine, *, duty: bool = True, network: ThermalNetwork | None = None
+) -> MachineTemperatures:
+    """Where parts settle in the mean if they go on losing what they do as drawn."""
+    network = network or cooled_network(machine)
+    lost = _losing(machine, duty=duty)(machine, COPPER_REFERENCE)
+    return MachineTemperatures(machine, network, lost, network.steady(lost.heat), lost)
+
+
+def _losing(machine: Machine, *, duty: bool) -> Losing:
+    """What a machine loses over its duty, by the temperatures of its parts."""
+    log = machine.design.requirements.duty_log if duty else None
+    cases = duty_cases(machine, duty=duty)
+
+    def lost(warm: Machine, magnets: float) -> DutyHeat:
+        if log is None:
+            return duty_heat(warm, cases, magnets)
+        return logged_heat(warm, log, magnets)[2]
+
+    return lost
 
 
 def _cycle(machine: Machine, network: ThermalNetwork, log: DutyLog, magnets: float) -> WarmCycle:
@@ -298,7 +327,7 @@ def heat_checks(found: MachineTemperatures) -> tuple[Check, ...]:
         When the thermal expansion of a part is not known.
     """
     checks = (
-        _rise(found),
+        rise_line(found),
         clearance_check(_added_overlaps(found), lambda: _remedy(found)),
     )
     if not found.cold:
@@ -309,7 +338,8 @@ def heat_checks(found: MachineTemperatures) -> tuple[Check, ...]:
     )
 
 
-def _rise(found: MachineTemperatures) -> Check:
+def rise_line(found: MachineTemperatures) -> Check:
+    """The line of the part nearest to the temperature that it bears."""
     heat, as_drawn = (
         float(one.heat.at(found.steady).sum()) for one in (found.duty, found.as_drawn)
     )
@@ -325,9 +355,9 @@ def enough_cooling(found: MachineTemperatures) -> float:
         vars(stated).update(contact=machine.contact, bodies=machine.bodies)
         stated.loses_as(machine)
         cooled = machine_temperatures(stated, still=SEARCHED_STILL)
-        return () if cooled.cold else (_rise(cooled),)
+        return () if cooled.cold else (rise_line(cooled),)
 
-    (enough,) = torques_that_hold(at, now, (_rise(found),), every=True, near=_NEAR_ENOUGH).values()
+    (enough,) = torques_that_hold(at, now, (rise_line(found),), every=True, near=_NEAR_ENOUGH).values()
     return enough
 
 

@@ -22,9 +22,10 @@ from cqdd_design.gearbox.tolerance.run import BLOCK
 from cqdd_design.machine import Machine
 from cqdd_design.machine.temperatures import (
     MachineTemperatures,
-    heat_checks,
     judged_temperatures,
     known_temperatures,
+    rise_line,
+    undisturbed_temperatures,
 )
 from cqdd_design.results import Check
 from cqdd_design.sizing.able import CONTINUOUS, PEAK, cooler, what_it_can
@@ -144,12 +145,12 @@ def hot_undisturbed(machine: Machine) -> tuple[Check, ...]:
 
     Nothing where that is not known.
     """
-    found = judged_temperatures(machine)[0]
+    found = undisturbed_temperatures(machine)
     if found is None:
         return ()
-    lines = heat_checks(found.undisturbed)
+    line = rise_line(found)
     remedy = cooling_remedy(duty=bool(machine.design.requirements.load_cases))
-    return tuple(replace(one, remedy=remedy) for one in lines if one.id == HOT and one.known)
+    return (replace(line, remedy=remedy),) if line.known else ()
 
 
 def take(hunt: Hunt, can: Requirements | None, step: float | None, cam: str = "") -> None:

@@ -17,7 +17,7 @@ import numpy as np
 from cqdd_design.errors import DesignError, GeometryError
 from cqdd_design.machine import Machine
 from cqdd_design.machine.end_bearing import END_KEY, on_stronger_ends
-from cqdd_design.machine.temperatures import judged_temperatures
+from cqdd_design.machine.temperatures import undisturbed_temperatures
 from cqdd_design.results import Check
 from cqdd_design.sizing.able import PEAK
 from cqdd_design.sizing.bearable import JUST, bearable, weaker
@@ -96,13 +96,13 @@ def with_sound_ends(found: Found) -> Found:
 
 
 def _gives_way(machine: Machine, like: Machine) -> bool:
-    """Whether the bond of shaft and bell does, as warm as the machine gets.
+    """Whether the bond of shaft and bell does, as warm as parts get that do not press.
 
-    As one that differs by the bearings at its shaft's ends alone, where that leaves no doubt.
+    As warm as those of one that differs by the bearings at its shaft's ends alone, where that leaves no doubt.
     """
-    line = bell_line(machine, judged_temperatures(like)[0])
+    line = bell_line(machine, undisturbed_temperatures(like))
     if line.known and abs(line.margin - 1.0) < _NO_DOUBT:
-        line = bell_line(machine, judged_temperatures(machine)[0])
+        line = bell_line(machine, undisturbed_temperatures(machine))
     return line.status == "fail"
 
 
