@@ -33,12 +33,10 @@ from cqdd_design.gearbox.heat.network import ThermalNetwork
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.limits import rounded_up
 from cqdd_design.machine.cooling import cooled_network, two_nodes
-from cqdd_design.machine.cures import torques_that_hold
 from cqdd_design.machine.duty_heat import DutyHeat, duty_cases, duty_heat, logged_heat
 from cqdd_design.machine.heat_nodes import NODES, Node, by_node
 from cqdd_design.machine.machine import Machine
 from cqdd_design.machine.settling import (
-    SEARCHED_STILL,
     STILL,
     Losing,
     gearbox_parts,
@@ -58,15 +56,11 @@ _TRIED = (1.5, 3.0, 6.0)
 """Of what a clearance lacks at least, what is tried as a remedy."""
 _LOOKS, _FEW_LOOKS = 6, 3
 """States on the way from the coldest start at which clearances are looked at; with rigid bodies."""
-
-
 _GREASED: tuple[Node, ...] = ("ring", "disc", "shaft", "carrier")
 _ALIKE = 0.5
 """K by which a state has to differ from another to be looked at."""
 _SAME_BACKLASH = 0.99
 """Share of the backlash as drawn that warmth has to leave less of to be drawn with part errors."""
-_NEAR_ENOUGH = 2e-2
-"""Of a limit of temperature, how much may be left of it where cooling is looked for."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -344,21 +338,6 @@ def rise_line(found: MachineTemperatures) -> Check:
         float(one.heat.at(found.steady).sum()) for one in (found.duty, found.as_drawn)
     )
     return rise_check(_parts(found), found.network.ambient, heat, as_drawn)
-
-
-def enough_cooling(found: MachineTemperatures) -> float:
-    """The stated resistance (K/W) up to which no part gets too warm; 0 where there is none."""
-    machine, now = found.machine, sum(two_nodes(found.network)[:2])
-
-    def at(resistance: float) -> tuple[Check, ...]:
-        stated = machine.changed({"drive.thermal_resistance": resistance})
-        vars(stated).update(contact=machine.contact, bodies=machine.bodies)
-        stated.loses_as(machine)
-        cooled = machine_temperatures(stated, still=SEARCHED_STILL)
-        return () if cooled.cold else (rise_line(cooled),)
-
-    (enough,) = torques_that_hold(at, now, (rise_line(found),), every=True, near=_NEAR_ENOUGH).values()
-    return enough
 
 
 def _parts(found: MachineTemperatures) -> tuple[WarmPart, ...]:

@@ -98,7 +98,7 @@ def with_sound_ends(found: Found) -> Found:
 def _gives_way(machine: Machine, like: Machine) -> bool:
     """Whether the bond of shaft and bell does, as warm as parts get that do not press.
 
-    As warm as those of one that differs by the bearings at its shaft's ends alone, where that leaves no doubt.
+    By those of a machine on other bearings at its shaft's ends, where that leaves no doubt.
     """
     line = bell_line(machine, undisturbed_temperatures(like))
     if line.known and abs(line.margin - 1.0) < _NO_DOUBT:

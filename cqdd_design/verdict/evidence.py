@@ -19,12 +19,9 @@ from cqdd_design.gearbox.checks.heat import cooling_remedy
 from cqdd_design.machine import Machine
 from cqdd_design.machine.body_analysis import judged_or_told
 from cqdd_design.machine.cooling import cooled_network
+from cqdd_design.machine.enough_cooling import enough_cooling
 from cqdd_design.machine.lasting import lasting_torque, margin_of
-from cqdd_design.machine.temperatures import (
-    MachineTemperatures,
-    enough_cooling,
-    judged_temperatures,
-)
+from cqdd_design.machine.temperatures import MachineTemperatures, judged_temperatures
 from cqdd_design.results import Check
 from cqdd_design.verdict.drawn import Drawn, drawn_gearboxes
 from cqdd_design.verdict.motor import lasting_speed_of

@@ -22,8 +22,9 @@ from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.body_analysis import analyse_bodies, judged_bodies, stress_under
 from cqdd_design.machine.carrying import torque_limits
 from cqdd_design.machine.cures import torques_that_hold
+from cqdd_design.machine.enough_cooling import enough_cooling
 from cqdd_design.machine.screws import screw_joints
-from cqdd_design.machine.temperatures import enough_cooling, judged_temperatures
+from cqdd_design.machine.temperatures import judged_temperatures
 from cqdd_design.results import Check
 from cqdd_design.verdict.creep_lines import creep_lines
 from cqdd_design.verdict.joint_lines import joint_lines

@@ -188,8 +188,12 @@ def rainflow(history: ArrayLike) -> list[tuple[float, float, float]]:
 def _turning_points(history: FloatArray) -> FloatArray:
     """Ends and reversals of a history, without ripples below a millionth of its range."""
     least = 1e-6 * float(np.ptp(history))
+    steps = np.diff(history)
+    moving = np.flatnonzero(steps)
+    rises = steps[moving] > 0.0
+    turns = moving[1:][rises[1:] != rises[:-1]]
     kept = [float(history[0])]
-    for value in history[1:].tolist():
+    for value in (*history[turns].tolist(), float(history[-1])):
         rising = len(kept) > 1 and kept[-1] > kept[-2]
         if len(kept) > 1 and (value >= kept[-1] if rising else value <= kept[-1]):
             kept[-1] = value
