@@ -569,6 +569,7 @@ def test_any_design_is_judged_as_it_was_found(monkeypatch: pytest.MonkeyPatch) -
     answers: dict[str, Any] = {
         "promising": one,
         "motor_far_short": (),
+        "foreseen": None,
         "learn": False,
         "with_sound_plate": one,
         "drawing_ahead": nullcontext(),
@@ -745,7 +746,8 @@ def test_discs_of_another_thickness_or_load_yield_otherwise(
     def machine(thickness: float, peak: float = 40.0, lasting: float = 10.0) -> Any:
         reducer = SimpleNamespace(disc_thickness=thickness)
         asked = SimpleNamespace(peak_torque=peak, continuous_torque=lasting)
-        return SimpleNamespace(design=SimpleNamespace(reducer=reducer, requirements=asked))
+        design = SimpleNamespace(reducer=reducer, requirements=asked)
+        return SimpleNamespace(design=design, rigid=None)
 
     trial = "cqdd_design.sizing.trial_gearboxes."
     monkeypatch.setattr(trial + "drawn_gearboxes", drawn)
@@ -788,6 +790,7 @@ def test_clearance_that_is_asked_for_late_is_given_to_the_same_gearbox(
     monkeypatch.setattr(road + "promising", lambda _: first)
     monkeypatch.setattr(road + "lightest", lightest_of)
     monkeypatch.setattr(road + "motor_far_short", lambda *_: ())
+    monkeypatch.setattr(road + "foreseen", lambda *_: None)
     monkeypatch.setattr(road + "learn", lambda *_: False)
     monkeypatch.setattr(road + "finer", lambda _, one: one)
     monkeypatch.setattr(road + "look", lambda *_: (None, next(steps)))
