@@ -5,10 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from cqdd_design.gearbox.checks.equilibrium import PeakLoads, lasting_checks, peak_checks
-from cqdd_design.gearbox.contact.model import ContactModel
-from cqdd_design.gearbox.life import life
 from cqdd_design.machine import Machine
-from cqdd_design.machine.capacity import LoadedContacts
 from cqdd_design.results import Check
 from cqdd_design.sizing.finish import LOAD_CHECKS, torque_reserve
 
@@ -24,10 +21,7 @@ def exact_checks(machine: Machine) -> tuple[Check, ...]:
     ContactError
         When the gearbox has no equilibrium at a load.
     """
-    rigid = ContactModel.from_design(machine.design)
-    peak, state = machine.design.requirements.peak_torque, machine.analysis
-    loads = PeakLoads.of(peak, LoadedContacts(rigid).greatest(peak))
-    return (*peak_checks(state, loads), *lasting_checks(state, life(machine.design, rigid)))
+    return yielding_checks(machine.rigid)
 
 
 def yielding_checks(machine: Machine) -> tuple[Check, ...]:
