@@ -1,4 +1,4 @@
-"""What a design falls clearly short of, told before a gearbox of it is drawn.
+"""An efficiency that a design clearly misses, told before a gearbox of it is drawn.
 
 What friction takes hardly hangs on clearances, nor on whether discs and ring yield: a search that
 has to go elsewhere for it need not learn first what part errors ask for.
@@ -8,16 +8,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from cqdd_design.machine.temperatures import judged_temperatures
 from cqdd_design.results import Check
 from cqdd_design.sizing.hunt import Hunt
-from cqdd_design.sizing.looks import HOT, hot_undisturbed, motor_far_short
 from cqdd_design.sizing.spaces import Found
 from cqdd_design.verdict.asked import efficiency_line
 
 _CLEARLY = 0.985
-"""Margin of a line by rigid discs and ring below which it fails by elastic ones too, whose
-temperatures are within a kelvin or two."""
+"""Margin of the line by rigid discs and ring below which it fails by elastic ones too."""
 
 
 @dataclass(frozen=True)
@@ -33,20 +30,14 @@ class Foreseen:
 
 
 def foreseen(hunt: Hunt, found: Found) -> Foreseen | None:
-    """Lines of the motor, of heat and of the efficiency that clearly fail; None where none does.
+    """The line of an efficiency that is clearly missed; None where none is.
 
-    Nothing where a torque was not stated: less of it comes first.
+    Nothing where a torque was not stated, as less of it comes first, and in a search that goes on
+    for what others have missed.
     """
-    if hunt.requirements.derived:
+    if hunt.requirements.derived or hunt.any_will_do:
         return None
-    lines = list(motor_far_short(hunt, found.sized.machine, _CLEARLY))
-    rigid = found.sized.machine.rigid
-    warmth = [line for line in judged_temperatures(rigid)[1] if line.id == HOT and line.known]
-    # Parts that press on each other are hot for that, which clearance helps.
-    if not any(line.id == HOT for line in lines):
-        both = (*warmth, *hot_undisturbed(rigid))
-        lines += warmth if both and all(line.margin < _CLEARLY for line in both) else ()
-    efficiency = efficiency_line(rigid)
-    if efficiency is not None and efficiency.known and efficiency.margin < _CLEARLY:
-        lines.append(efficiency)
-    return Foreseen(tuple(lines)) if lines else None
+    line = efficiency_line(found.sized.machine.rigid)
+    if line is None or not line.known or line.margin >= _CLEARLY:
+        return None
+    return Foreseen((line,))

@@ -101,6 +101,8 @@ class Hunt:
     trusting : bool
         Whether designs with cam bearings that have not been looked at need much less, and nothing
         where none has been.
+    left : bool
+        Whether a design was left for what it is foreseen to miss.
     any_will_do : bool
         Whether the first design whose verdict is yes is enough, the best or not.
     hoped : float
@@ -203,6 +205,7 @@ class Hunt:
     had: tuple[str, dict[str, float]] = ("", {})
     relented: int = 0
     trusting: bool = False
+    left: bool = False
     any_will_do: bool = False
     hoped: float = 0.0
     lighter_than: float = math.inf

@@ -144,7 +144,7 @@ def searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
         if hunt.best_alone:
             raise
         too_hot = bool(BY_HEAT & set(refusal.binding))
-        if not hunt.any_will_do and hunt.calm is not None:
+        if not hunt.any_will_do and (hunt.left or hunt.calm is not None):
             hunt.say("searching for any design that meets everything")
             hunt = new_hunt(requirements, hunt.say, hunt.motor, hunt.ambient, goal)
             hunt.any_will_do = True
@@ -189,7 +189,7 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
                     # A refusal names all that binds.
                     nearest = judge(found.sized.machine)
                 if moved:
-                    sound, found = None, other
+                    hunt.left, sound, found = True, None, other
                     continue
             asks = (sound is None or sound.found is not found) and learn(hunt, found)
             if not asks:

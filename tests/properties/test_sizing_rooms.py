@@ -150,10 +150,10 @@ def test_more_costs_what_a_search_for_more_finds():
     more = told["peak_torque"].mass
     assert more is not None
     assert more > 0.01
-    # Told is what it costs near this design: a search for it may find another that is lighter (by
-    # 5.5 % here), and none that is heavier.
+    # Told is what it costs near this design by closed forms: a search for it may find another that
+    # is lighter, or one that is a little heavier for bearings at its shaft's ends (3.1 % here).
     closed = found.sized.objective.mass + more
-    assert 0.99 < closed / whole.sized.objective.mass < 1.06
+    assert 0.96 < closed / whole.sized.objective.mass < 1.06
     assert told["peak_torque"].to_dict()["mass_g"] == pytest.approx(1e3 * more)
     # Beside a design that is heavier than it has to be, more costs nothing, and no less.
     heavy = replace(found.sized.objective, mass=2.0 * found.sized.objective.mass)
