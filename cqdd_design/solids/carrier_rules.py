@@ -29,6 +29,9 @@ _CLAMP_RIM = 0.8
 """Least thickness of the ring clamp between housing and cover, units."""
 CLAMPED_SEAT = 1.0
 """Least length of a pin's seat in the cap that holds its slope, in diameters."""
+_LEAST_SEAT = 0.75
+"""Least length of any seat of a shoulder, in diameters: what it bears of a pin's moment grows with
+the square of that."""
 
 
 def pin_wall(diameter: float, unit: float) -> float:
@@ -231,8 +234,8 @@ def _seat_depths(
     if pin.screw is None:
         web = max(2.5 * unit, 0.75 * diameter, seat) if both else 0.0
         return pin.shoulder_length(span + web + 1.5 * diameter) - span - web, web
-    least_register = max(1.0 * unit, 0.25 * diameter)
-    least_web = max(1.5 * unit, 0.5 * diameter, seat) if both else 0.0
+    least_register = max(1.0 * unit, _LEAST_SEAT * diameter)
+    least_web = max(1.5 * unit, _LEAST_SEAT * diameter, seat) if both else 0.0
     spare = pin.shoulder_length(span + least_register + least_web) - span
     if both:
         register = max(least_register, min(0.5 * spare, spare - least_web))

@@ -29,9 +29,11 @@ from cqdd_design.machine.output_loads import output_loads
 from cqdd_design.machine.screws import ScrewJoint, screw_joints
 from cqdd_design.machine.temperatures import MachineTemperatures
 from cqdd_design.results import Check
+from cqdd_design.solids.carrier_rules import _seat_depths
 from cqdd_design.solids.features.kinds import Chamfer
 from cqdd_design.solids.motor_rules import bell_torque, bonded_length
 from cqdd_design.solids.mounting import forces
+from cqdd_design.solids.selection import output_pin
 from cqdd_design.verdict.creep_lines import creep_lines
 from cqdd_design.verdict.joint_lines import joint_lines
 from cqdd_design.verdict.screw_lines import screw_lines
@@ -121,6 +123,25 @@ def test_seats_hold_the_output_pins(machine: Machine) -> None:
     plate, cap = pressed_seats(machine, ends)
     assert (plate.part, cap.part) == ("carrier plate", "carrier cap")
     assert plate.depth == pytest.approx(lay.carrier.shoulder_top - lay.carrier.plate_bottom)
+
+
+@given(
+    diameter=st.sampled_from([4e-3, 5e-3, 6e-3, 8e-3]),
+    span=st.floats(6e-3, 60e-3),
+    both=st.booleans(),
+    clamped=st.booleans(),
+)
+def test_no_seat_of_a_shoulder_is_shallow(
+    diameter: float, span: float, both: bool, clamped: bool
+) -> None:
+    """A shoulder that was sold 1.5 mm longer than its pack sat 1.5 mm deep, of 4 mm diameter."""
+    own = load_design(DESIGNS / "cqdd-10.toml").reducer.output_pins
+    pin = output_pin(own.model_copy(update={"diameter": diameter}))
+    assert pin.screw is not None
+    register, web = _seat_depths(pin, span, both, 1e-3, clamped=clamped)
+    assert register >= 0.75 * diameter - 1e-9
+    assert web >= (max(0.75, clamped) * diameter if both else 0.0) - 1e-9
+    assert span + register + web == pytest.approx(pin.shoulder_length(span + register + web))
 
 
 def test_seats_and_shaft_are_looked_at_in_both_senses_of_the_peak(machine: Machine) -> None:
