@@ -81,6 +81,9 @@ class SizingInfeasibleError(InfeasibleError):
     most_speed : float or None
         Input speed up to which the motor holds the continuous torque for ever in the same space,
         rpm; looked for only where that alone is short.
+    cool_ratio : int
+        About the least ratio at which the winding's heat would be little enough, where heat is
+        short; 0 where none is known.
     figures : mapping of str to str
         Requirements of mass, stiffness and the like that fit in place of those that are short, as
         unit strings; looked for only where they alone are.
@@ -101,6 +104,7 @@ class SizingInfeasibleError(InfeasibleError):
         length_needed: float | None = None,
         ratio_needed: int | None = None,
         most_speed: float | None = None,
+        cool_ratio: int = 0,
         figures: Mapping[str, str] = MappingProxyType({}),
         short: tuple[Check, ...] = (),
         estimate: str = "",
@@ -113,6 +117,7 @@ class SizingInfeasibleError(InfeasibleError):
         self.length_needed = length_needed
         self.ratio_needed = ratio_needed
         self.most_speed = most_speed
+        self.cool_ratio = cool_ratio
         self.figures = figures
         self.short = short
         self.estimate = estimate

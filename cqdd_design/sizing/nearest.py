@@ -30,7 +30,7 @@ from cqdd_design.sizing.looser import looser_figures
 from cqdd_design.sizing.motor_reach import PEAK_LINE, MotorShortError
 from cqdd_design.sizing.motors import lacking
 from cqdd_design.sizing.ratios import other_ratio
-from cqdd_design.sizing.refusals import FIGURES
+from cqdd_design.sizing.refusals import FIGURES, NO_SPACE, far_short
 from cqdd_design.sizing.rivals import or_better
 from cqdd_design.sizing.slower import less_speed
 from cqdd_design.sizing.stage_tables import stage_tables
@@ -57,15 +57,6 @@ step from one to the next."""
 _NEARLY = 0.9
 """Share of both torques below which nothing is looked for that bears all: it is told roughly."""
 _ROUNDING = 1e-6
-_NO_SPACE = (
-    "MOTOR-",
-    "THERMAL-RISE",
-    "EFFICIENCY",
-    "REFLECTED-INERTIA",
-    "MASS",
-    "PEAK-AT-SPEED",
-)
-"""Beginnings of lines that no more space helps."""
 _NO_LOADS = {"BACKLASH", "LOST-MOTION", "STIFFNESS", "SHOCK-STOP", "SURFACE-TEMPERATURE"}
 """Lines of which a search by loads alone does not know how much space they take."""
 _RISES = 4
@@ -82,9 +73,10 @@ class _Way:
 
     @property
     def hopeless(self) -> bool:
-        """Whether it failed for what no space helps."""
+        """Whether it failed for what no space helps, alone or by far."""
         if isinstance(self.refusal, SizingInfeasibleError):
-            return all(line.startswith(_NO_SPACE) for line in self.refusal.binding)
+            alone = all(line.startswith(NO_SPACE) for line in self.refusal.binding)
+            return alone or bool(far_short(self.refusal))
         return isinstance(self.refusal, TooHotError)
 
     @property
@@ -95,7 +87,7 @@ class _Way:
     @property
     def beyond_space(self) -> tuple[str, ...]:
         """Lines that it fell short of and that space hardly helps."""
-        return tuple(line for line in self.short if line.startswith(_NO_SPACE))
+        return tuple(line for line in self.short if line.startswith(NO_SPACE))
 
     @property
     def doubtful(self) -> bool:
@@ -161,7 +153,8 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
     asked = hunt.requirements
     less = _Way(hunt, None, refusal)
     stated = PEAK not in asked.derived and not asked.load_cases
-    if stated or not less.hopeless or set(refusal.binding) & FIGURES.keys():
+    looked_for = not less.hopeless or refusal.cool_ratio or set(refusal.binding) & FIGURES.keys()
+    if stated or looked_for:
         # The ways out take minutes; whoever knows enough need not wait for them.
         # And an estimate of what is carried need not stand above what they find.
         told = refusal.message.replace(refusal.estimate, "") if stated else refusal.message
@@ -181,11 +174,12 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
     looser = looser_figures(hunt, refusal, partial(_answer, hunt))
     if looser.short:
         still[f"any {listed([*looser.keys])}"] = looser.short
-    if isinstance(refusal, MotorShortError):
+    weak = isinstance(refusal, MotorShortError)
+    if weak or refusal.cool_ratio:
         ratio, tried, short = other_ratio(hunt, refusal, partial(_at_ratio, hunt, asked))
         if short:
             still[f"ratio {tried}"] = short
-    elif not less.hopeless:
+    if not (weak or less.hopeless or far_short(refusal)):
         # What torque nobody stated has to fit is not known before a search.
         doubtful = PEAK in asked.derived or _Way(hunt, None, refusal).doubtful
         for key, limit in _limits(hunt):
@@ -199,7 +193,7 @@ def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleEr
     besides = ""
     if less.refusal not in (None, refusal) and (slower is not None or not ways.words):
         besides = f"Less torque does not help: {_why(less.refusal)}."
-    elif not (ways.words or isinstance(refusal, MotorShortError) or less.hopeless):
+    elif not (ways.words or weak or less.hopeless):
         besides = "No larger ring and no longer discs were found that do, by the whole verdict."
     if still:
         words = _titles(line for lines in still.values() for line in lines)

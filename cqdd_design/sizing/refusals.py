@@ -11,6 +11,7 @@ from cqdd_design.design import Requirements
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.gearbox.checks.guide import CHECK_GUIDE
 from cqdd_design.geometry.limits import rounded_down
+from cqdd_design.machine import Machine
 from cqdd_design.results import Check
 from cqdd_design.sizing.able import PEAK
 from cqdd_design.sizing.agreement import RING, strongest
@@ -25,6 +26,8 @@ from cqdd_design.sizing.infeasible import (
     listed,
     no_design,
 )
+from cqdd_design.sizing.looks import BY_HEAT
+from cqdd_design.sizing.ratios import cool_ratio
 from cqdd_design.sizing.search import Search
 from cqdd_design.sizing.shafts import ANY_TORQUE, ROTOR
 from cqdd_design.sizing.spaces import FITS, Found, Space, spaces
@@ -48,6 +51,17 @@ FIGURES: Mapping[str, str] = MappingProxyType(
     }
 )
 """Requirements by the lines that hold a figure of a design against them."""
+NO_SPACE = (
+    "MOTOR-",
+    "THERMAL-RISE",
+    "EFFICIENCY",
+    "REFLECTED-INERTIA",
+    "MASS",
+    "PEAK-AT-SPEED",
+)
+"""Beginnings of lines that neither more space nor a stronger gearbox helps."""
+_FAR = 0.85
+"""Margin of such a line below which nothing but its own requirement need be looked at."""
 
 
 def nothing(hunt: Hunt) -> SizingInfeasibleError:
@@ -211,11 +225,11 @@ def unsettled(found: Found) -> SizingInfeasibleError:
 
 def refused(judged: Verdict) -> SizingInfeasibleError:
     """What stands in the way of the design that came nearest."""
-    short = _short(judged)
-    if not any(line.id == "MOTOR-CONTINUOUS" for line in short):
-        return short_of(short)
-    actuator, asked = judged.evidence.actuator, judged.evidence.machine.design.requirements
-    return short_of(short, 0.0 if actuator is None else held_up_to(actuator, asked))
+    short, machine, actuator = _short(judged), judged.evidence.machine, judged.evidence.actuator
+    up_to = 0.0
+    if actuator is not None and any(line.id == "MOTOR-CONTINUOUS" for line in short):
+        up_to = held_up_to(actuator, machine.design.requirements)
+    return short_of(short, machine, up_to)
 
 
 def least_margin(judged: Verdict) -> float:
@@ -223,28 +237,43 @@ def least_margin(judged: Verdict) -> float:
     return min((line.margin if line.known else 0.0 for line in _short(judged)), default=math.inf)
 
 
+def far_short(refusal: SizingInfeasibleError) -> tuple[Check, ...]:
+    """What the design that came nearest is far short of, and neither space nor strength helps.
+
+    Not of heat while warm parts press on each other: clearance helps that.
+    """
+    pressed = "THERMAL-CLEARANCE" in refusal.binding
+    return tuple(
+        line
+        for line in refusal.short
+        if line.id.startswith(NO_SPACE) and line.known and line.margin < _FAR and not pressed
+    )
+
+
 def _short(judged: Verdict) -> list[Check]:
     return [line for line in judged.limits if line.status in {"fail", "unknown"}]
 
 
-def short_of(short: Sequence[Check], up_to: float = 0.0) -> SizingInfeasibleError:
+def short_of(short: Sequence[Check], machine: Machine, up_to: float = 0.0) -> SizingInfeasibleError:
     """What the design that came nearest falls short of, the tightest first.
 
     Parameters
     ----------
+    machine : Machine
+        Of that design.
     up_to : float
         Input speed up to which its motor holds the continuous torque, rpm; 0 where it does not, or
         where that is not known.
     """
-    told = "; ".join(
-        f"{line.title.lower()}: {line.substituted} ({line.remedy})" for line in short[:4]
-    )
+    told = [f"{line.title.lower()}: {line.substituted} ({line.remedy})" for line in short[:4]]
+    listing = f" {told[0]}" if len(told) == 1 else "".join(f"\n- {one}" for one in told)
     most = {one.id: rounded_down(one.value) for one in short if one.value and one.id in _MOTOR}
     return SizingInfeasibleError(
-        f"no design was found that meets everything; the nearest falls short of {told}.",
+        f"no design was found that meets everything; the nearest falls short of{listing}.",
         binding=tuple(line.id for line in short),
         most_torque=most.get("MOTOR-PEAK"),
         most_lasting_torque=most.get("MOTOR-CONTINUOUS"),
         most_speed=up_to or None,
+        cool_ratio=cool_ratio(machine) if any(line.id in BY_HEAT for line in short) else 0,
         short=tuple(short),
     )

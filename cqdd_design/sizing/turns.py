@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
+from cqdd_design.machine import Machine
 from cqdd_design.results import Check
 from cqdd_design.sizing.able import CONTINUOUS, PEAK, cooler
 from cqdd_design.sizing.bearable import JUST, weaker
@@ -55,8 +56,8 @@ _STURDIER = 1.3
 """Of its reserve at the peak, from one search to the next."""
 
 
-def cooler_gearbox(hunt: Hunt, far: tuple[Check, ...]) -> Found:
-    """A gearbox that loses less, where a motor is far from holding a torque that is stated.
+def cooler_gearbox(hunt: Hunt, far: tuple[Check, ...], machine: Machine) -> Found:
+    """A gearbox that loses less than a machine's, whose motor is far from holding a stated torque.
 
     Near the speed at which its own drag warms a motor to its limit, what it holds hangs on little.
 
@@ -66,13 +67,14 @@ def cooler_gearbox(hunt: Hunt, far: tuple[Check, ...]) -> Found:
         When the motor is as far from it with that one, or it is a peak torque.
     """
     if hunt.goal == _COOL or not {line.id for line in far} <= BY_HEAT:
-        raise short_of(far, hunt.held_up_to)
+        raise short_of(far, machine, hunt.held_up_to)
     hunt.say("searching with efficiency as the objective, for what the motor has to hold")
     hunt.goal, hunt.pins = _COOL, (False, True) if hunt.may_roll else hunt.pins
     hunt.tried.add(_COOL)
     found = promising(hunt)
     if found is None or motor_far_short(hunt, found.sized.machine, _NEARLY_HELD):
-        raise short_of(far, hunt.held_up_to)
+        cooler = machine if found is None else found.sized.machine
+        raise short_of(far, cooler, hunt.held_up_to)
     return found
 
 

@@ -25,7 +25,6 @@ from cqdd_design.sizing.hunt import Hunt, Progress
 from cqdd_design.sizing.infeasible import SizingInfeasibleError
 from cqdd_design.sizing.kinds import lightest, promising
 from cqdd_design.sizing.looks import (
-    BY_HEAT,
     NothingWiderError,
     last_look,
     learn,
@@ -36,7 +35,15 @@ from cqdd_design.sizing.looks import (
 from cqdd_design.sizing.motor_reach import refuse_weak_motor
 from cqdd_design.sizing.outcome import result_of
 from cqdd_design.sizing.plates import with_sound_plate
-from cqdd_design.sizing.refusals import TRIALS, least_margin, nothing, refused, unsettled
+from cqdd_design.sizing.refusals import (
+    NO_SPACE,
+    TRIALS,
+    far_short,
+    least_margin,
+    nothing,
+    refused,
+    unsettled,
+)
 from cqdd_design.sizing.result import SizingResult
 from cqdd_design.sizing.rings import finer
 from cqdd_design.sizing.shafts import stronger_shaft, turn_to_less_throw
@@ -134,16 +141,16 @@ def searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
 
     Where the search for the best ends without a design, the first that meets everything is searched
     for, and then one of the strongest: that is what refusals name as the nearest, so whoever asks
-    for it has to find it. A stronger one warms a motor as much, so none is looked at for that.
+    for it has to find it. But a stronger one warms a motor as much, and is no lighter; and where
+    the nearest is far short of such things, so would any be.
     """
     goal, began = hunt.goal, time.perf_counter()
     refuse_weak_motor(hunt.requirements, hunt.motor_row, hunt.ambient)
     try:
         return _searched(hunt, requirements)
     except SizingInfeasibleError as refusal:
-        if hunt.best_alone:
+        if hunt.best_alone or far_short(refusal):
             raise
-        too_hot = bool(BY_HEAT & set(refusal.binding))
         if not hunt.any_will_do and (hunt.left or hunt.calm is not None):
             hunt.say("searching for any design that meets everything")
             hunt = new_hunt(requirements, hunt.say, hunt.motor, hunt.ambient, goal)
@@ -152,7 +159,8 @@ def searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
                 return _searched(hunt, requirements)
             except InfeasibleError:
                 pass
-        strong = None if too_hot else strong_and_sound(hunt)
+        helpless = any(line.startswith(NO_SPACE) for line in refusal.binding)
+        strong = None if helpless else strong_and_sound(hunt)
         if strong is None:
             raise
         found, verdict = strong
@@ -167,7 +175,7 @@ def _searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
     found = or_weaker(hunt, lambda: promising(hunt))
     hunt.hoped = hunt.hoped or (math.inf if found is None else found.sized.objective.score)
     if found is not None and (far := motor_far_short(hunt, found.sized.machine)):
-        found = cooler_gearbox(hunt, far)
+        found = cooler_gearbox(hunt, far, found.sized.machine)
     nearest: Verdict | None = None
     thorough = hunt.any_will_do
     sound: _Sound | None = None

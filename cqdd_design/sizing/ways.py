@@ -80,8 +80,11 @@ class Ways:
         """The refusal that names them."""
         words = ", or ".join(self.words)
         fits = f"What fits, by the whole verdict: {words}." if words else ""
-        sentences = f"{self._message}.", fits, self.besides
-        return WaysOutError(" ".join(one for one in sentences if one), self)
+        message = f"{self._message}."
+        sentences = message, fits, self.besides
+        # After a list, on a line of its own.
+        apart = "\n" if "\n" in message else " "
+        return WaysOutError(apart.join(one for one in sentences if one), self)
 
     @property
     def _message(self) -> str:

@@ -139,7 +139,7 @@ def _housing(machine: Machine, plastic: Material) -> Check:
 
 
 def _place(one: HeldStress) -> str:
-    return f"{one.part}, {one.place}: {one.stress / _MEGA:.3g} MPa"
+    return f"{one.part}, {one.place}: {one.stress / _MEGA:.4g} MPa"
 
 
 def _screws(machine: Machine, plastic: Material) -> Check:

@@ -175,7 +175,7 @@ def _dowel(name: str, every: list[tuple[LoadedDowels, float, Allowable]], cure: 
         With ``{one}`` for these.
     """
     told = "; ".join(
-        f"{one.place}: {one.size}, {value / _MEGA:.3g} of {limit.value / _MEGA:.3g} MPa under "
+        f"{one.place}: {one.size}, {value / _MEGA:.4g} of {limit.value / _MEGA:.4g} MPa under "
         f"{one.torque:.4g} N*m" + (f" and {one.across:.4g} N across" if one.across else "")
         for one, value, limit in every
     )

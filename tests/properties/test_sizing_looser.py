@@ -53,14 +53,14 @@ class World:
         lines = [line("stiffness", has["stiffness"], stiff), line("mass", has["mass"], mass)]
         short = [one for one in lines if one.status == "fail"]
         if short:
-            return None, short_of(short)
+            return None, short_of(short, None)
         return SimpleNamespace(verdict=SimpleNamespace(lines=lines)), None
 
 
 def refusal(stiffness=None, mass=None):
     values = {"stiffness": stiffness, "mass": mass}
     asked = {"stiffness": 1.5, "mass": 1.1}
-    return short_of([line(k, v, asked[k]) for k, v in values.items() if v is not None])
+    return short_of([line(k, v, asked[k]) for k, v in values.items() if v is not None], None)
 
 
 def told(looser):

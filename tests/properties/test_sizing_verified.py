@@ -273,6 +273,8 @@ def test_a_motor_far_from_holding_a_torque_gets_a_gearbox_that_loses_less(
         id="MOTOR-CONTINUOUS", title="held", substituted="0 N*m", remedy="cool it", value=0.0
     )
     machines, asked_for = SimpleNamespace(sized=SimpleNamespace(machine="cool")), []
+    ratios = {"hot": 8, "cool": 7}
+    monkeypatch.setattr("cqdd_design.sizing.refusals.cool_ratio", ratios.__getitem__)
     monkeypatch.setattr("cqdd_design.sizing.turns.promising", lambda _: machines)
 
     def far(_: Hunt, machine: object, least: float = 0.0) -> tuple[object, ...]:
@@ -281,24 +283,27 @@ def test_a_motor_far_from_holding_a_torque_gets_a_gearbox_that_loses_less(
 
     monkeypatch.setattr("cqdd_design.sizing.turns.motor_far_short", far)
     short: tuple[object, ...] = ()
-    assert cooler_gearbox(hunt, (told,)) is machines
+    assert cooler_gearbox(hunt, (told,), "hot") is machines
     assert (hunt.goal, hunt.pins, asked_for) == ("efficiency", (False, True), [("cool", 0.85)])
     with pytest.raises(SizingInfeasibleError) as refused:
-        cooler_gearbox(hunt, (told,))
+        cooler_gearbox(hunt, (told,), "hot")
     assert refused.value.most_lasting_torque is None
+    assert refused.value.cool_ratio == 8
     # The heat of a duty stands for the torque.
     hot = SimpleNamespace(**{**vars(told), "id": "THERMAL-RISE"})
-    assert cooler_gearbox(hunt_of_what_is_assumed(), (hot,)) is machines
+    assert cooler_gearbox(hunt_of_what_is_assumed(), (hot,), "hot") is machines
     held = SimpleNamespace(**{**vars(told), "value": 1.5})
     short = (held,)
     with pytest.raises(SizingInfeasibleError) as refused:
-        cooler_gearbox(hunt_of_what_is_assumed(), (held,))
+        cooler_gearbox(hunt_of_what_is_assumed(), (held,), "hot")
     assert refused.value.most_lasting_torque == pytest.approx(1.5, rel=0.01)
+    assert refused.value.cool_ratio == 7
     peak = SimpleNamespace(**{**vars(held), "id": "MOTOR-PEAK"})
     short = ()
     with pytest.raises(SizingInfeasibleError) as refused:
-        cooler_gearbox(hunt_of_what_is_assumed(), (peak,))
+        cooler_gearbox(hunt_of_what_is_assumed(), (peak,), "hot")
     assert refused.value.most_torque == pytest.approx(1.5, rel=0.01)
+    assert refused.value.cool_ratio == 0
 
 
 @pytest.mark.deep
@@ -362,7 +367,8 @@ def test_a_refusal_tells_of_the_judged_design_that_came_nearest(
             )
             for name, margin in margins.items()
         ]
-        return SimpleNamespace(meets="no", limits=lines)
+        evidence = SimpleNamespace(machine=None, actuator=None)
+        return SimpleNamespace(meets="no", limits=lines, evidence=evidence)
 
     near, far = judged(MASS=0.9, EFFICIENCY=0.97), judged(MASS=0.99, YIELD=0.4)
     unknown = judged(MASS=0.99, STIFFNESS=None)

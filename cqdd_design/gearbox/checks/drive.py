@@ -62,7 +62,7 @@ def _balance(state: GearboxState) -> tuple[Check, ...]:
             reaction,
             most,
             f"{couple:.4g} N*m/({reducer.disc_count} x {reducer.disc_thickness * 1e3:g} mm) = "
-            f"{reaction:.3g} N{weights}",
+            f"{reaction:.4g} N{weights}",
             gentler if asked else f"set balance.counterweights = true, or {gentler}",
             severity=severity,
         ),
