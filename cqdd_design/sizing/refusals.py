@@ -51,17 +51,12 @@ FIGURES: Mapping[str, str] = MappingProxyType(
     }
 )
 """Requirements by the lines that hold a figure of a design against them."""
-NO_SPACE = (
-    "MOTOR-",
-    "THERMAL-RISE",
-    "EFFICIENCY",
-    "REFLECTED-INERTIA",
-    "MASS",
-    "PEAK-AT-SPEED",
-)
+_BY_LOSSES = ("MOTOR-", "THERMAL-RISE", "EFFICIENCY", "PEAK-AT-SPEED")
+NO_SPACE = (*_BY_LOSSES, "REFLECTED-INERTIA", "MASS")
 """Beginnings of lines that neither more space nor a stronger gearbox helps."""
 _FAR = 0.85
-"""Margin of such a line below which nothing but its own requirement need be looked at."""
+"""Margin of a line that a search has made losses small for, below which no other design meets it.
+"""
 
 
 def nothing(hunt: Hunt) -> SizingInfeasibleError:
@@ -238,7 +233,7 @@ def least_margin(judged: Verdict) -> float:
 
 
 def far_short(refusal: SizingInfeasibleError) -> tuple[Check, ...]:
-    """What the design that came nearest is far short of, and neither space nor strength helps.
+    """What losses leave the design that came nearest far short of, which no other design helps.
 
     Not of heat while warm parts press on each other: clearance helps that.
     """
@@ -246,7 +241,7 @@ def far_short(refusal: SizingInfeasibleError) -> tuple[Check, ...]:
     return tuple(
         line
         for line in refusal.short
-        if line.id.startswith(NO_SPACE) and line.known and line.margin < _FAR and not pressed
+        if line.id.startswith(_BY_LOSSES) and line.known and line.margin < _FAR and not pressed
     )
 
 

@@ -115,9 +115,12 @@ def test_ratios_are_tried_from_the_cool_one_on(
     [
         ([line("THERMAL-RISE", 0.7), line("YIELD", 0.2)], ["THERMAL-RISE"]),
         ([line("THERMAL-RISE", 0.9)], []),
-        ([line("MOTOR-PEAK", 0.5), line("MASS", 0.8)], ["MOTOR-PEAK", "MASS"]),
+        ([line("MOTOR-PEAK", 0.5), line("MASS", 0.8)], ["MOTOR-PEAK"]),
+        ([line("EFFICIENCY", 0.8), line("PEAK-AT-SPEED", 0.8)], ["EFFICIENCY", "PEAK-AT-SPEED"]),
         ([line("BACKLASH", 0.2)], []),
-        ([line("REFLECTED-INERTIA", None)], []),
+        # Another goal may be lighter by as much.
+        ([line("REFLECTED-INERTIA", 0.5)], []),
+        ([line("MOTOR-CONTINUOUS", None)], []),
         # Parts that press on each other are hot for that.
         ([line("THERMAL-RISE", 0.5), line("THERMAL-CLEARANCE", 0.5)], []),
     ],
