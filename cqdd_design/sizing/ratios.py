@@ -14,6 +14,7 @@ from cqdd_design.machine.temperatures import undisturbed_temperatures
 from cqdd_design.sizing.able import EFFICIENCY
 from cqdd_design.sizing.hunt import Hunt
 from cqdd_design.sizing.infeasible import SizingInfeasibleError
+from cqdd_design.sizing.looks import BY_HEAT
 from cqdd_design.sizing.motor_reach import MotorShortError
 
 TRIES = 2
@@ -81,7 +82,7 @@ def other_ratio(hunt: Hunt, refusal: SizingInfeasibleError, search: _Search) -> 
 
 
 def _cooler(hunt: Hunt, ratio: int, search: _Search) -> OtherRatio:
-    """Up from where the winding would be cool enough by itself; 0 where nowhere."""
+    """Up from where the winding would be cool enough by itself, while heat is what is short."""
     asked = hunt.requirements.ratio
     most = min(_FARTHEST * asked, MOST_RATIO)
     first = max(ratio, asked + 1)
@@ -95,7 +96,7 @@ def _cooler(hunt: Hunt, ratio: int, search: _Search) -> OtherRatio:
         if fits:
             return OtherRatio(tried, first, ())
         tried = math.ceil(_FARTHER * tried)
-        if tried > most:
+        if tried > most or not BY_HEAT & set(short):
             break
     return OtherRatio(None, first, short)
 

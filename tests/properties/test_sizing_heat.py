@@ -87,10 +87,10 @@ def test_the_ratio_is_that_of_a_design_short_of_heat_alone(monkeypatch: pytest.M
     [
         (13, {13}, (13, 13, ()), [13]),
         (13, {16}, (16, 13, ()), [13, 16]),
-        (13, {17}, (None, 13, ("YIELD",)), [13, 16]),
+        (13, {17}, (None, 13, ("THERMAL-RISE",)), [13, 16]),
         # Never less, nor as much.
         (9, {11}, (11, 11, ()), [11]),
-        (18, {22}, (None, 18, ("YIELD",)), [18]),
+        (18, {22}, (None, 18, ("THERMAL-RISE",)), [18]),
         (21, {21}, (None, 10, ()), []),
         (0, {11}, (None, 10, ()), []),
     ],
@@ -102,12 +102,24 @@ def test_ratios_are_tried_from_the_cool_one_on(
 
     def search(ratio: int) -> tuple[bool, tuple[str, ...]]:
         seen.append(ratio)
-        return ratio in fits, () if ratio in fits else ("YIELD",)
+        return ratio in fits, () if ratio in fits else ("THERMAL-RISE",)
 
     short = SizingInfeasibleError("no.", binding=("YIELD",), most_torque=None, cool_ratio=cool)
     assert tuple(other_ratio(hunt(), short, search)) == told
     assert seen == tried
     assert ratios.TRIES == 2
+
+
+def test_no_further_ratio_is_tried_where_one_is_short_of_other_than_heat() -> None:
+    short = SizingInfeasibleError("no.", binding=("YIELD",), most_torque=None, cool_ratio=13)
+    seen: list[int] = []
+
+    def search(ratio: int) -> tuple[bool, tuple[str, ...]]:
+        seen.append(ratio)
+        return False, ("YIELD",)
+
+    other_ratio(hunt(), short, search)
+    assert seen == [13]
 
 
 @pytest.mark.parametrize(
