@@ -166,9 +166,10 @@ def test_no_design_is_searched_for_that_would_be_as_far_short(
     assert seen == [False, True][:searches]
 
 
+@pytest.mark.parametrize("less", [False, True], ids=["no torque fits", "less torque fits"])
 @pytest.mark.parametrize(("margin", "looks"), [(0.7, False), (0.9, True)])
 def test_no_space_is_looked_for_where_heat_is_far_short(
-    monkeypatch: pytest.MonkeyPatch, margin: float, looks: bool
+    monkeypatch: pytest.MonkeyPatch, margin: float, looks: bool, less: bool
 ) -> None:
     """And a ratio at which it would fit is told, on a line below those of the reasons."""
     monkeypatch.setattr("cqdd_design.sizing.refusals.cool_ratio", lambda _: 12)
@@ -178,10 +179,13 @@ def test_no_space_is_looked_for_where_heat_is_far_short(
     asked: list[int] = []
 
     def searched(own: Hunt, _: object) -> Any:
-        asked.append(own.requirements.ratio)
-        if own.requirements.ratio == 10:
+        wanted = own.requirements
+        asked.append(wanted.ratio)
+        if wanted.ratio == 10 and not (less and wanted.derived):
             raise refusal
-        return "found"
+        if wanted.derived:
+            wanted = wanted.unchecked_copy({"peak_torque": 20.0, "continuous_torque": 3.0})
+        return SimpleNamespace(sizing=SimpleNamespace(design=SimpleNamespace(requirements=wanted)))
 
     spaces: list[str] = []
 
@@ -193,9 +197,12 @@ def test_no_space_is_looked_for_where_heat_is_far_short(
     monkeypatch.setattr(nearest, "_least", least)
     with pytest.raises(SizingInfeasibleError) as caught:
         nearest.size_or_nearest(hunt().requirements)
-    assert caught.value.to_dict()["ratio_needed"] == 12
+    told = caught.value.to_dict()
+    assert told["ratio_needed"] == 12
+    assert (told["most_peak_torque_Nm"] is not None) is less
     assert (asked[0], asked[-1]) == (10, 12)
     assert bool(spaces) is looks
     reasons = "- thermal-rise: so much (do better)\n- yield: so much (do better)."
-    text = f"the nearest falls short of\n{reasons}\nWhat fits, by the whole verdict: ratio 12."
+    text = f"the nearest falls short of\n{reasons}\nWhat fits, by the whole verdict: "
     assert text in caught.value.message
+    assert caught.value.message.endswith("ratio 12.")
