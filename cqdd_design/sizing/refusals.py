@@ -55,8 +55,7 @@ _BY_LOSSES = ("MOTOR-", "THERMAL-RISE", "EFFICIENCY", "PEAK-AT-SPEED")
 NO_SPACE = (*_BY_LOSSES, "REFLECTED-INERTIA", "MASS")
 """Beginnings of lines that neither more space nor a stronger gearbox helps."""
 _FAR = 0.85
-"""Margin of a line that a search has made losses small for, below which no other design meets it.
-"""
+"""Margin of a line by losses, at the nearest of the judged designs, below which none meets it."""
 
 
 def nothing(hunt: Hunt) -> SizingInfeasibleError:

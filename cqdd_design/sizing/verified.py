@@ -142,7 +142,7 @@ def searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
     Where the search for the best ends without a design, the first that meets everything is searched
     for, and then one of the strongest: that is what refusals name as the nearest, so whoever asks
     for it has to find it. But a stronger one warms a motor as much, and is no lighter; and where
-    the nearest is far short of such things, so would any be.
+    losses leave the nearest far short, they would any.
     """
     goal, began = hunt.goal, time.perf_counter()
     refuse_weak_motor(hunt.requirements, hunt.motor_row, hunt.ambient)

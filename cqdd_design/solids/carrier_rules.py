@@ -30,8 +30,8 @@ _CLAMP_RIM = 0.8
 CLAMPED_SEAT = 1.0
 """Least length of a pin's seat in the cap that holds its slope, in diameters."""
 _LEAST_SEAT = 0.75
-"""Least length of any seat of a shoulder, in diameters: what it bears of a pin's moment grows with
-the square of that."""
+"""Least length of a pin's seat, in diameters: what it bears of a moment grows with the square of
+that."""
 
 
 def pin_wall(diameter: float, unit: float) -> float:
@@ -232,7 +232,7 @@ def _seat_depths(
     diameter = pin.nominal_diameter
     seat = CLAMPED_SEAT * diameter if clamped else 0.0
     if pin.screw is None:
-        web = max(2.5 * unit, 0.75 * diameter, seat) if both else 0.0
+        web = max(2.5 * unit, _LEAST_SEAT * diameter, seat) if both else 0.0
         return pin.shoulder_length(span + web + 1.5 * diameter) - span - web, web
     least_register = max(1.0 * unit, _LEAST_SEAT * diameter)
     least_web = max(1.5 * unit, _LEAST_SEAT * diameter, seat) if both else 0.0
